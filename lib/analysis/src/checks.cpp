@@ -96,7 +96,7 @@ std::vector<post::SupportLoad> support_loads(const model::Model& model, const po
     const auto facts = model.facts(deck.supports[i].boundary, comm);
     auto force = results.reactions[i].force;
     if (deck.axisymmetric()) force[0] = 0;  // what holds a ring together is no resultant
-    result.push_back({deck.supports[i].boundary, force, facts.area, facts.centre, facts.young_modulus});
+    result.push_back({deck.supports[i].boundary, force, facts.area, facts.centre, facts.mean_modulus});
   }
   return result;
 }

@@ -193,7 +193,7 @@ Eigen::MatrixXd Model::steklov_poincare(const partition::Subdomain& subdomain) c
 Model::Facts Model::facts(const std::string& boundary, const Communicator& comm) const
 {
   const auto [index, on_body] = select(boundary);
-  std::vector<double> sums(4, 0.0);
+  std::vector<double> sums(5, 0.0);
   double softest = std::numeric_limits<double>::infinity();
   for (const auto& subdomain : decomposition_.subdomains) {
     if (!on_body[static_cast<std::size_t>(subdomain.body)]) continue;
@@ -202,12 +202,15 @@ Model::Facts Model::facts(const std::string& boundary, const Communicator& comm)
     sums[3] += moments.area;
     for (int c = 0; c < 3; ++c) sums[static_cast<std::size_t>(c)] += moments.first[c];
     const auto own = materials(subdomain);
-    for (std::size_t m = 0; m < own.count(); ++m) softest = std::min(softest, own[m].modulus());
+    double own_softest = std::numeric_limits<double>::infinity();
+    for (std::size_t m = 0; m < own.count(); ++m) own_softest = std::min(own_softest, own[m].modulus());
+    softest = std::min(softest, own_softest);
+    sums[4] += moments.area * own_softest;
   }
   comm.sum_in_place(sums);
   softest = comm.min(softest);
   if (!(sums[3] > 0)) return {};
-  return {sums[3], Point(sums[0], sums[1], sums[2]) / sums[3], softest};
+  return {sums[3], Point(sums[0], sums[1], sums[2]) / sums[3], softest, sums[4] / sums[3]};
 }
 
 }  // namespace mortise::model

@@ -91,16 +91,17 @@ bool tied(const CoveredNode& a, const CoveredNode& b, const std::set<int>& of_no
 }
 
 // Whether the bond of a node is the last of a ring of three or four that closes there: the node's body has another one, and so
-// has what lies opposite, with nodes in common or a further bond between them. `parted`: bonds that rings do not go through.
+// has what lies opposite, with nodes in common or a further bond between them. Round a sector both may be the same. `parted`:
+// bonds that rings do not go through.
 bool closes_ring(const CoveredNode& node, const std::set<int>& of_node, const Bonds& bonds, const Pairs& parted)
 {
   const auto before = [&](int bond) { return bond != node.bond && bonds.comes_before(bond, node.bond); };
   const auto goes_on = [&](int a, int b) { return bonds.beside(a, b) && !parted.contains(ordered(a, b)); };
-  const auto of_opposite = bonds.opposite(node, of_node);
+  const auto of_opposite = bonds.opposite(node, {node.bond});
   for (const int own : of_node)
     for (const int other : of_opposite) {
       if (!before(own) || !before(other) || !goes_on(node.bond, own) || !goes_on(node.bond, other)) continue;
-      if (goes_on(own, other)) return true;
+      if (own != other && goes_on(own, other)) return true;
       for (const int between : bonds.all())
         if (before(between) && between != own && between != other && goes_on(own, between) && goes_on(between, other))
           return true;

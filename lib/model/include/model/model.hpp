@@ -84,6 +84,7 @@ class Model {
     double area = 0;
     Point centre = Point::Zero();
     double young_modulus = 0;  ///< the smallest of its bodies
+    double mean_modulus = 0;   ///< over its area, of the softest material of each subdomain
   };
   /// Of a boundary, by its name in the deck. Collective.
   Facts facts(const std::string& boundary, const Communicator& comm) const;

@@ -45,7 +45,7 @@ struct SupportLoad {
   std::array<double, 3> force{};  ///< resultant
   double area = 0;                ///< of its faces; of the whole turn in axisymmetry, in planes times the thickness 1
   Point centre = Point::Zero();
-  double young_modulus = 0;  ///< the smallest of its bodies
+  double young_modulus = 0;  ///< mean of its bodies over the area, for the stiff ones carry most
 };
 
 /// "strained_support": resultant over area exceeds a hundredth of Young's modulus: no real seat bears that, so the area is not
