@@ -11,7 +11,7 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr double least_pressed = 0.3;     // of the mean, at the start
+constexpr double least_pressed = 3;       // of the mean, at the start: what presses in the end may be few of all points
 constexpr double largest_friction = 0.5;  // of the radius, at the start
 constexpr double to_border = 0.99;        // of the way
 constexpr double predicted = 0.999;       // the same before it is corrected
@@ -232,11 +232,11 @@ class CentralPath::Linear {
         const Local row = round.disc.index[static_cast<std::size_t>(k)];
         entries.push_back({row, row, lambda[d] / r});
         for (int l = 0; l < round.disc.size(); ++l)
-          entries.push_back({row, round.disc.index[static_cast<std::size_t>(l)],
-                             lambda[d] / part.room * part.towards[k] * part.towards[l]});
+          entries.push_back(
+              {row, round.disc.index[static_cast<std::size_t>(l)], lambda[d] / part.room * part.towards[k] * part.towards[l]});
         if (round.coefficient > 0)
-          entries.push_back({row, round.disc.normal,
-                             -(round.coefficient * lambda[d] * (part.widening / part.room + 1 / r) * part.towards[k])});
+          entries.push_back(
+              {row, round.disc.normal, -(round.coefficient * lambda[d] * (part.widening / part.room + 1 / r) * part.towards[k])});
       }
     }
     return entries;
@@ -281,6 +281,12 @@ bool CentralPath::advance()
   }
   at_ = std::move(next);
   return length > no_step;
+}
+
+CentralPath::Distance CentralPath::distance() const
+{
+  const Residual now = residual(at_);
+  return {now.mean(), now.forces.norm(), now.motions.norm()};
 }
 
 }  // namespace mortise::qp

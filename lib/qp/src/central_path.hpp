@@ -28,8 +28,11 @@ class CentralPath {
   bool advance();
   const Eigen::VectorXd& x() const { return at_.x; }
   const Eigen::VectorXd& nu() const { return at_.nu; }
-  /// Tau, on average.
-  double product() const { return residual(at_).mean(); }
+  struct Distance {
+    double product;          // tau, on average
+    double forces, motions;  // norms of what the equations lack
+  };
+  Distance distance() const;
 
  private:
   struct Side {  // a bound, or an end of an interval: room = offset + sign x[along] + coefficient x[normal]

@@ -44,7 +44,7 @@ constexpr double least_stride = 0.8;             // as slow as it gets,
 constexpr double largest_stride = 1e-4;          // and as fast, where
 constexpr int at_once = 2;                       // guesses were enough
 constexpr int most_on_path = 100;                // linear problems along the central path,
-constexpr int stuck_on_path = 12;                // the last of so many must have brought it half as near as it was
+constexpr int stuck_on_path = 12;                // the last of so many must have halved tau, or what equations lack
 constexpr double path_near = 1e-3;               // residual over x from which on guesses are tried from the path,
 constexpr double path_nearer = 0.1;              // and of what it was then, to try again
 constexpr Eigen::Index few_unknowns = 2000;      // up to which a factor of W takes a moment; beyond, as long as many guesses,
@@ -333,12 +333,15 @@ void StateSearch::start_soft()
 template <class Visit>
 bool StateSearch::walk(CentralPath& path, double last, const Visit& is_end)
 {
-  std::vector<double> products{path.product()};
-  while (static_cast<int>(products.size()) < most_on_path && products.back() > last * products[0] && path.advance()) {
+  const auto halved = [](const CentralPath::Distance& now, const CentralPath::Distance& before) {
+    return 2 * now.product <= before.product || (2 * now.forces <= before.forces && 2 * now.motions <= before.motions);
+  };
+  std::vector<CentralPath::Distance> points{path.distance()};
+  while (static_cast<int>(points.size()) < most_on_path && points.back().product > last * points[0].product && path.advance()) {
     if (is_end()) return true;
-    products.push_back(path.product());
-    const auto count = products.size();
-    if (count > stuck_on_path && 2 * products.back() > products[count - 1 - stuck_on_path]) break;
+    points.push_back(path.distance());
+    const auto count = points.size();
+    if (count > stuck_on_path && !halved(points.back(), points[count - 1 - stuck_on_path])) break;
   }
   return false;
 }

@@ -26,8 +26,8 @@ CondensedNewton::Point walk(const CondensedMatrices& matrices, const MatrixProgr
   const CondensedProgramme programme(matrices, p.a.llt(), p.set, p.b, p.e);
   auto path = programme.path_from(VectorXd::Ones(p.b.size()), VectorXd::Zero(p.e.size()));
   int steps = 0;
-  while (steps < most && path.product() > enough && path.advance()) ++steps;
-  return {path.x(), path.nu(), path.product() <= enough, steps};
+  while (steps < most && path.distance().product > enough && path.advance()) ++steps;
+  return {path.x(), path.nu(), path.distance().product <= enough, steps};
 }
 
 MatrixProgramme contact_alone(int seed, int points, int tangents, int rigid)
