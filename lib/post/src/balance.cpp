@@ -21,6 +21,8 @@ constexpr double part_of_loads = 1e-11;
 // Of the displacements that loads would have if each node resisted alone, a body's own being at least some tenths of them: what
 // is below is nothing.
 constexpr double part_of_displacement = 1e-6, part_of_overlap = 1e-5;
+// Of the largest displacement: one that is nothing in the states after it, where supports are back where they began.
+constexpr double part_of_motion = 1e-6;
 // Of forces at contact nodes that cancel, as those of a fit do: what rounding leaves of them, times a thousand, and what warnings
 // measure other forces by.
 constexpr double part_of_contacts = 1e-6, acting_part_of_contacts = 1e-3;
@@ -139,7 +141,7 @@ Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::v
 {
   // k |u| and k |u|^2 / 2: forces and energy if nothing moved with its neighbours; |f|^2 / 2k: energy if nodes held themselves.
   std::array<double, 3> sums{0, 0, 0};
-  double longest = 0, stiffest = 0;  // |f| / k, k
+  double longest = 0, stiffest = 0, farthest = 0;  // |f| / k, k, |u|
   for (std::size_t s = 0; s < displacement.size(); ++s)
     for (Eigen::Index i = 0; i < displacement[s].size(); i += dimension) {
       const double length = displacement[s].segment(i, dimension).norm();
@@ -148,6 +150,7 @@ Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::v
       sums[1] += 0.5 * k * length * length;
       sums[2] += 0.5 * load[s].segment(i, dimension).squaredNorm() / k;
       stiffest = std::max(stiffest, k);
+      farthest = std::max(farthest, length);
       longest = std::max(longest, load[s].segment(i, dimension).norm() / k);
     }
   comm.sum_in_place(sums);
@@ -155,7 +158,8 @@ Rounding rounding(const std::vector<Eigen::VectorXd>& displacement, const std::v
   stiffest = comm.max(stiffest);
   return {std::max(part_of_stiffness_in_forces * sums[0], stiffest * nothing),
           std::max(part_of_displacement * part_of_displacement * sums[2], 0.5 * stiffest * nothing * nothing),
-          std::max(part_of_overlap * comm.max(longest), nothing), part_of_overlap * sums[2], part_of_stiffness * sums[1]};
+          std::max({part_of_overlap * comm.max(longest), part_of_motion * comm.max(farthest), nothing}),
+          part_of_overlap * sums[2], part_of_stiffness * sums[1]};
 }
 
 Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::span<const Reaction> reactions,

@@ -367,6 +367,9 @@ TEST(Roundings, AreSmallPartsOfWhatNodesWouldDoAlone)
   EXPECT_NEAR(r.work, 1e-5 * (100 / 40.0), 1e-18);
   EXPECT_NEAR(r.moved, 1e-12 * 0.5 * (20 * 25 + 300 * 4), 1e-21);
 
+  const std::vector<Eigen::VectorXd> unloaded{Eigen::VectorXd::Zero(6)};
+  EXPECT_NEAR(rounding(u, unloaded, k, 3, 1e-3, alone).length, 1e-6 * 5, 1e-18);
+
   // At rest and unloaded what is left is a part of the model's size.
   const std::vector<Eigen::VectorXd> none{Eigen::VectorXd::Zero(6)};
   r = rounding(none, none, k, 3, 100, alone);

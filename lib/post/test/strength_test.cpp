@@ -61,7 +61,7 @@ TEST(NarrowContacts, AreNarrowerThanThreeFaces)
 {
   const Sides sides, curved("hex20");
   const auto found = [](const Sides& on, double width, double mean) {
-    return narrow_contacts(on.state([&](const Point& x) { return in_square(x, width); }, mean), {}, on.pairs, on.comm);
+    return narrow_contacts(on.state([&](const Point& x) { return in_square(x, width); }, mean), {}, on.pairs, 0, on.comm);
   };
   const auto at_one_node = found(sides, 0, 1);
   ASSERT_EQ(at_one_node.size(), 1U);
@@ -89,11 +89,11 @@ TEST(NarrowContacts, AreNarrowerThanThreeFaces)
   }
 
   // What ends at the side's own border is not ended by a gap.
-  EXPECT_TRUE(narrow_contacts(sides.state([](const Point&) { return 5; }, 0.5), {}, sides.pairs, sides.comm).empty());
+  EXPECT_TRUE(narrow_contacts(sides.state([](const Point&) { return 5; }, 0.5), {}, sides.pairs, 0, sides.comm).empty());
   auto bonded = sides.pairs;
   bonded[0].options.law = contact::Law::bonded;
   const auto one = sides.state([](const Point& x) { return in_square(x, 0); });
-  EXPECT_TRUE(narrow_contacts(one, {}, bonded, sides.comm).empty());
+  EXPECT_TRUE(narrow_contacts(one, {}, bonded, 0, sides.comm).empty());
 }
 
 // A corner without rows shows what its neighbours have, and is pressed if all nodes with rows of its face are.
@@ -104,7 +104,7 @@ TEST(NarrowContacts, CornersWithoutRowsGoWithTheOthersOfAFace)
   const auto wide = [&](const Point& bare) {
     for (std::size_t i = 0; i < state[0].status.size(); ++i)
       state[0].without_rows[i] = (sides.pairs[0].secondary.points[i] - bare).norm() < 1e-9;
-    const auto found = narrow_contacts(state, {}, sides.pairs, sides.comm);
+    const auto found = narrow_contacts(state, {}, sides.pairs, 0, sides.comm);
     return found.size() == 1 ? found[0].value : -1;
   };
   EXPECT_EQ(wide({2, 2, 0}), 1);                            // of the one face that is pressed
@@ -123,12 +123,12 @@ TEST(NarrowContacts, MayActBetweenNodes)
   const auto pressed = std::find_if(status.begin(), status.end(), [](int of_node) { return of_node != 0; }) - status.begin();
   const auto with = [&](double between_nodes) {
     std::vector<contact::ContactNodeState> points(2);
-    if (pressed == std::ssize(status)) return narrow_contacts(wide, {}, sides.pairs, sides.comm);
+    if (pressed == std::ssize(status)) return narrow_contacts(wide, {}, sides.pairs, 0, sides.comm);
     for (auto& point : points) point.node = sides.pairs[0].secondary.node_id[static_cast<std::size_t>(pressed)];
     points[0].parts.push_back({points[0].node, 1, Point(0, 0, 1)});
     points[0].force = between_nodes;
     points[1].force = 1;
-    return narrow_contacts(wide, points, sides.pairs, sides.comm);
+    return narrow_contacts(wide, points, sides.pairs, 0, sides.comm);
   };
   EXPECT_TRUE(with(0.9).empty());
   const auto found = with(1.1);

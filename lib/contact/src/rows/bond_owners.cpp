@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "rows/by_node.hpp"
@@ -22,10 +24,10 @@ std::array<int, 2> ordered(int a, int b)
 }
 
 // Of all ranks. Collective.
-Pairs united(const Pairs& pairs, const Communicator& comm)
+template <class T>
+std::set<T> united(const std::set<T>& some, const Communicator& comm)
 {
-  const std::vector<std::array<int, 2>> own(pairs.begin(), pairs.end());
-  const auto all = comm.all_gather(own);
+  const auto all = comm.all_gather(std::vector<T>(some.begin(), some.end()));
   return {all.begin(), all.end()};
 }
 
@@ -37,14 +39,18 @@ class Bonds {
         const Communicator& comm)
       : known_(std::move(known))
   {
-    Pairs beside, unmatched;
+    Pairs beside;
+    std::set<int> unmatched, cyclic;
     for (std::size_t i = 0; i < sides.size(); ++i)
       for (std::size_t j = i + 1; j < sides.size() && sides[j].node == sides[i].node; ++j)
         if (sides[i].bond != sides[j].bond) beside.insert(ordered(sides[i].bond, sides[j].bond));
-    for (const auto& node : covered)
-      if (!node.matches) unmatched.insert({node.bond, node.bond});
+    for (const auto& node : covered) {
+      if (!node.matches) unmatched.insert(node.bond);
+      if (node.cyclic) cyclic.insert(node.bond);
+    }
     beside_ = united(beside, comm);
     unmatched_ = united(unmatched, comm);
+    cyclic_ = united(cyclic, comm);
     for (const auto& [a, b] : beside_) all_.merge(std::set<int>{a, b});
   }
 
@@ -68,21 +74,34 @@ class Bonds {
   // Whether two bonds have nodes in common.
   bool beside(int a, int b) const { return a == b || beside_.contains(ordered(a, b)); }
   // Where rings of bonds close the last one gives way: of those that do not match all over if there are any.
+  std::array<int, 2> rank(int bond) const { return {unmatched_.contains(bond), bond}; }
   bool comes_before(int a, int b) const { return rank(a) < rank(b); }
+  bool cyclic(int bond) const { return cyclic_.contains(bond); }
   const std::set<int>& all() const { return all_; }
 
  private:
-  std::pair<bool, int> rank(int bond) const { return {unmatched_.contains({bond, bond}), bond}; }
-
   std::vector<NodeOfBond> known_;
-  Pairs beside_, unmatched_;
+  Pairs beside_;
+  std::set<int> unmatched_, cyclic_;
   std::set<int> all_;  // that have nodes in common with others
 };
+
+// Whether what lies opposite in `bond` is tied to what does in `cut`, in the next sector: by a cut of its own, and there by a
+// bond to the same body, which may be this one again.
+bool tied_round(const CoveredNode& bond, const CoveredNode& cut, const Bonds& bonds)
+{
+  const auto of_opposite = bonds.opposite(bond, {bond.bond}), of_next = bonds.opposite(cut, {cut.bond});
+  return std::ranges::any_of(of_opposite, [&](int other) {
+    return bonds.cyclic(other) &&
+           std::ranges::any_of(of_next, [&](int next) { return !bonds.cyclic(next) && bonds.beside(other, next); });
+  });
+}
 
 // Whether what lies opposite in one bond is tied to what does in the other: it is the same body, they are bonded to each other,
 // or both to a third one.
 bool tied(const CoveredNode& a, const CoveredNode& b, const std::set<int>& of_node, const Bonds& bonds)
 {
+  if (a.cyclic != b.cyclic) return a.cyclic ? tied_round(b, a, bonds) : tied_round(a, b, bonds);
   for (const Global other : a.opposite)
     if (other >= 0 && std::ranges::find(b.opposite, other) != b.opposite.end()) return true;
   const auto of_a = bonds.opposite(a, of_node), of_b = bonds.opposite(b, of_node);
@@ -114,7 +133,7 @@ bool is_past_border(const CoveredNode& node)
   return node.opposite[0] < 0;
 }
 
-// Visits nodes, each with its entries, those that cover most first.
+// Visits nodes, each with its entries, those that cover most first; but cuts that match before others.
 template <class Visit>
 void for_nodes(const std::vector<CoveredNode>& covered, const Visit& visit)
 {
@@ -122,7 +141,9 @@ void for_nodes(const std::vector<CoveredNode>& covered, const Visit& visit)
     while (end < covered.size() && covered[end].node == covered[i].node) ++end;
     std::vector<CoveredNode> entries(covered.begin() + static_cast<std::ptrdiff_t>(i),
                                      covered.begin() + static_cast<std::ptrdiff_t>(end));
-    std::ranges::sort(entries, {}, [](const CoveredNode& e) { return std::pair(-std::llround(e.cover / as_much), e.bond); });
+    std::ranges::sort(entries, {}, [](const CoveredNode& e) {
+      return std::tuple(!(e.cyclic && e.matches), -std::llround(e.cover / as_much), e.bond);
+    });
     visit(entries);
   }
 }
@@ -138,6 +159,38 @@ std::vector<CoveredNode> of_several(const std::vector<CoveredNode>& covered, con
   return result;
 }
 
+// A node of a bond that coincides with one of the other side, and which of all bonds this is.
+struct PairOfNodes {
+  std::array<int, 2> rank;
+  Global node, partner;
+};
+
+// Those pairs that others imply, of all ranks: as edges of a graph they close circles. Collective.
+std::set<std::pair<Global, int>> implied_pairs(const std::vector<CoveredNode>& covered, const std::vector<NodeOfBond>& dropped,
+                                               const Bonds& bonds, const Communicator& comm)
+{
+  std::set<std::pair<Global, int>> without_row;
+  for (const auto& [node, bond] : dropped) without_row.insert({node, bond});
+  std::vector<PairOfNodes> pairs;
+  for (const auto& node : covered)
+    if (node.matches && node.partner >= 0 && node.partner != node.node && !without_row.contains({node.node, node.bond}))
+      pairs.push_back({bonds.rank(node.bond), node.node, node.partner});
+  pairs = comm.all_gather(pairs);
+  std::ranges::sort(pairs, {}, [](const PairOfNodes& pair) { return std::pair(pair.rank, pair.node); });
+  std::map<Global, Global> towards;
+  const auto root = [&](Global node) {
+    for (auto next = towards.find(node); next != towards.end(); next = towards.find(node)) node = next->second;
+    return node;
+  };
+  std::set<std::pair<Global, int>> implied;
+  for (const auto& [rank, node, partner] : pairs)
+    if (const Global a = root(node), b = root(partner); a != b)
+      towards[std::max(a, b)] = std::min(a, b);
+    else
+      implied.insert({node, rank[1]});
+  return implied;
+}
+
 std::vector<Global> all_nodes(const std::vector<CoveredNode>& covered)
 {
   std::set<Global> result;
@@ -150,6 +203,15 @@ std::vector<Global> all_nodes(const std::vector<CoveredNode>& covered)
 }
 
 }  // namespace
+
+void CoveredNode::lies_opposite(const Side& primary, const Opposite& place)
+{
+  const auto corners = primary.facets[place.facet];
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    opposite[k] = primary.node_id[static_cast<std::size_t>(corners[k])];
+    if (place.hit.shape[static_cast<Eigen::Index>(k)] > 1 - same_node) partner = opposite[k];
+  }
+}
 
 std::vector<NodeOfBond> nodes_of_others(const std::vector<CoveredNode>& covered, const std::vector<NodeOfBond>& sides,
                                         const Communicator& comm)
@@ -190,6 +252,9 @@ std::vector<NodeOfBond> nodes_of_others(const std::vector<CoveredNode>& covered,
   for (const auto& node : several)
     if (!node.matches && !is_past_border(node) && closes_ring(node, bonds.of(node.node), bonds, parted))
       result.push_back({node.node, node.bond});
+  const auto implied = implied_pairs(several, result, bonds, comm);
+  for (const auto& node : several)
+    if (implied.contains({node.node, node.bond})) result.push_back({node.node, node.bond});
   std::ranges::stable_sort(result, {}, &NodeOfBond::node);
   return result;
 }

@@ -120,11 +120,10 @@ class ContactBuilder {
     for (std::size_t p = 0; p < nodes_.all.size(); ++p) {
       if (!own(p) || !(cover[p] > 0)) continue;
       CoveredNode node{node_of(p), index_, matches_[p] != 0, cover[p]};
-      if (const Opposite& opposite = rays_.meet(p); !options_.obstacle && std::isfinite(opposite.gap)) {
-        const auto corners = primary_.facets[opposite.facet];
-        for (std::size_t k = 0; k < corners.size(); ++k)
-          node.opposite[k] = primary_.node_id[static_cast<std::size_t>(corners[k])];
-      }
+      node.cyclic = options_.cyclic.has_value();
+      if (const Opposite& opposite = rays_.meet(p); !options_.obstacle && std::isfinite(opposite.gap))
+        node.lies_opposite(primary_, opposite);
+      if (options_.preload) node.partner = -1;  // which moves away
       result.push_back(node);
     }
     return result;

@@ -61,9 +61,9 @@ struct Balance {
 /// What rounding, and a solver that is measured by the loads, may leave where nothing is strained.
 struct Rounding {
   double force = 0, energy = 0;
-  double length = 0,
-         work = 0;   ///< of overlaps that loads cause which go straight into what holds them, and the work of these loads
-  double moved = 0;  ///< of energies, where errors are measured by displacements: grows with rigid motions
+  double length = 0,  ///< of distances that are to be none, beside displacements and what loads do that go straight into supports
+      work = 0;       ///< the work of these loads
+  double moved = 0;   ///< of energies, where errors are measured by displacements: grows with rigid motions
   /// Keeps the larger of each but the work, which is that of this state's loads alone.
   void take(const Rounding& other);
 };

@@ -53,13 +53,14 @@ std::vector<Warning> doubled_contacts(std::span<const contact::Pair> pairs, cons
 /// ones may. One for each contact, the largest overlap first. `gaps`: of each of `contacts`, the same on every rank.
 std::vector<Warning> unasked_overlaps(std::span<const contact::InitialGap> gaps, std::span<const contact::Options> contacts);
 
-/// "uneven_clearance": `clearance` stands for gaps of the meshes that differ by more than a quarter of the longest secondary face:
-/// no error of meshes is as large; a chamfer, a relief or a lead-in is part of the contact and pressed like its fit. As above.
+/// "uneven_clearance": `clearance` stands for gaps of the meshes that differ by more than a quarter of the longest secondary
+/// face: no error of meshes is as large; a chamfer, a relief or a lead-in is part of the contact and pressed like its fit. As
+/// above.
 std::vector<Warning> uneven_clearances(std::span<const contact::InitialGap> gaps, std::span<const contact::Options> contacts);
 
-/// "bonded_gap": a bonded contact whose sides touch nowhere, with gaps above a fiftieth of the longest secondary face, or touch in
-/// part, with gaps above a quarter of it elsewhere: what is between them pulls and shears as if it were there. As above; pretension
-/// sections aside.
+/// "bonded_gap": a bonded contact whose sides touch nowhere, with gaps above a fiftieth of the longest secondary face, or touch
+/// in part, with gaps above a quarter of it elsewhere: what is between them pulls and shears as if it were there. As above;
+/// pretension sections aside.
 std::vector<Warning> bonded_gaps(std::span<const contact::InitialGap> gaps, std::span<const contact::Options> contacts);
 
 }  // namespace mortise::post
