@@ -91,6 +91,7 @@ void Report::warn(const model::Model& model, const analysis::Rows& first, const 
   print_initial_gaps(first.initial_gaps, model.contacts(), command_line_.check, log);
   tell(post::unasked_overlaps(first.initial_gaps, model.contacts().options));
   tell(post::uneven_clearances(first.initial_gaps, model.contacts().options));
+  tell(post::coarse_arcs(first.initial_gaps, model.contacts().options));
   tell(post::bonded_gaps(first.initial_gaps, model.contacts().options));
   analysis::check_unconstrained_bodies(model, first, context_, warnings_);
 }

@@ -366,7 +366,7 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
   append(result, post::facet_turns(pairs, state.rows->constraints.contacts, contact.states, decomposition, deck.kinematics,
                                    state.displacement, comm));
   append(result, post::large_pressures(contact.surfaces, pairs, softest, names, comm));
-  append(result, post::narrow_contacts(contact.surfaces, contact.states, pairs, results.balance.acting, comm));
+  append(result, post::narrow_contacts(contact.surfaces, contact.states, pairs, state.before.unfelt(), comm));
   append(result, post::scattered_contacts(contact.surfaces, pairs, softest, comm));
   append(result, post::lost_moments(results.moments, pairs, results.balance.acting));
   append(result,

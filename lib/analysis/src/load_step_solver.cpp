@@ -23,9 +23,8 @@ constexpr double smallest_part = 1e-6, largest_part = 0.05;
 // Of the norm with what springs store, below which bodies that hang on them are not strained.
 constexpr double strained = 1e-3;
 
-// Of the largest force of the states before: a smaller one counts as none, and balances of forces are relative to so much at
-// least.
-constexpr double unfelt_force = 1e-8, part_to_balance = 1e-3;
+// Of the largest force of the states before: balances of forces are relative to so much at least.
+constexpr double part_to_balance = 1e-3;
 
 // The solution of one problem as a start for another one of the same assembly, where other components are prescribed.
 qp::Solution carry_solution(const feti::DualProblem& from, const qp::Solution& solution, const feti::DualProblem& to)
@@ -277,7 +276,7 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
   if (found.gave_up) return {rows_, symmetric_, std::move(found), {}, {}, patience, magnitudes};
   if (approach_.kind == Approach::Kind::direct_instead)
     patience.reset();  // what it has solved is not thrown away for a later state
-  found.solution.nu = problem_->least_motion(found.solution.x, found.solution.nu, unfelt_force * magnitudes.force);
+  found.solution.nu = problem_->least_motion(found.solution.x, found.solution.nu, magnitudes.unfelt());
   auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
   refuse_support_of_facets(*problem_, assembly_, *rows_, found, displacement);
   auto shortenings = problem_->shortenings(found.solution.nu);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "densities.hpp"
@@ -253,6 +254,28 @@ std::vector<Warning> uneven_clearances(std::span<const contact::InitialGap> gaps
     warning.at = Point(gap.mesh_largest_at.data());
     warning.contact = contacts[c].name;
     warning.value = spread;
+    warning.limit = limit;
+    result.push_back(std::move(warning));
+  }
+  return worst(std::move(result), "contacts");
+}
+
+std::vector<Warning> coarse_arcs(std::span<const contact::InitialGap> gaps, std::span<const contact::Options> contacts)
+{
+  constexpr double degree = std::numbers::pi / 180, limit = 28, touching = 0.5;
+  std::vector<Warning> result;
+  for (std::size_t c = 0; c < gaps.size(); ++c) {
+    const auto& gap = gaps[c];
+    if (!(gap.turn > limit * degree) || !(gap.near_area > touching * gap.area)) continue;
+    Warning warning{
+        "coarse_arc",
+        fmt::format("contact {}: a face at ({:.5g}, {:.5g}, {:.5g}) spans {:.0f} degrees of a round surface and stands back from "
+                    "it by {:.3g} between its nodes; that is taken for an error of the mesh, and the face for all in contact",
+                    contacts[c].name, gap.turn_at[0], gap.turn_at[1], gap.turn_at[2], gap.turn / degree, gap.rise),
+        "if the side is round, make its faces smaller; if it has flats, mesh each with two faces or more across"};
+    warning.at = Point(gap.turn_at.data());
+    warning.contact = contacts[c].name;
+    warning.value = gap.turn / degree;
     warning.limit = limit;
     result.push_back(std::move(warning));
   }

@@ -70,9 +70,9 @@ int narrow_width(const PressedPatch& p)
 }
 
 // Of each contact the patch that is too narrow by most, of those that matter beside its others; null where none is.
-std::vector<const PressedPatch*> narrowest(const std::vector<PressedPatch>& patches, std::size_t contacts, double acting)
+std::vector<const PressedPatch*> narrowest(const std::vector<PressedPatch>& patches, std::size_t contacts, double nothing)
 {
-  constexpr double of_force = 0.2, of_pressure = 0.3, nothing = 1e-5;
+  constexpr double of_force = 0.2, of_pressure = 0.3;
   std::vector<const PressedPatch*> result(contacts, nullptr);
   std::vector<double> forces(contacts, 0.0), pressures(contacts, 0.0);
   for (const auto& p : patches) {
@@ -82,8 +82,7 @@ std::vector<const PressedPatch*> narrowest(const std::vector<PressedPatch>& patc
   }
   for (const auto& p : patches) {
     const auto c = static_cast<std::size_t>(p.contact);
-    if (!(p.node.value > 0) || p.force < std::max(of_force * forces[c], nothing * acting) ||
-        p.node.value < of_pressure * pressures[c])
+    if (!(p.node.value > 0) || p.force < std::max(of_force * forces[c], nothing) || p.node.value < of_pressure * pressures[c])
       continue;
     const int wide = narrow_width(p), before = result[c] ? narrow_width(*result[c]) : 3;
     if (wide < before || (wide < 3 && wide == before && p.node.value > result[c]->node.value)) result[c] = &p;
@@ -95,10 +94,10 @@ std::vector<const PressedPatch*> narrowest(const std::vector<PressedPatch>& patc
 
 std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surfaces,
                                      std::span<const contact::ContactNodeState> states, std::span<const contact::Pair> pairs,
-                                     double forces, const Communicator& comm)
+                                     double nothing, const Communicator& comm)
 {
   const auto patches = pressed_patches(surfaces, states, pairs, comm);
-  const auto found = narrowest(patches, pairs.size(), forces);
+  const auto found = narrowest(patches, pairs.size(), nothing);
   std::vector<Warning> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     if (!found[c]) continue;

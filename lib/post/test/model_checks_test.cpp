@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "post/nonconformity.hpp"
 #include "post/strength.hpp"
 
@@ -276,6 +278,29 @@ TEST(ModelChecks, ClearancesThatCloseMoreThanErrorsOfMeshes)
   auto plain = fit;
   plain.clearance.reset();
   EXPECT_TRUE(uneven_clearances(std::vector{uneven}, std::vector{plain}).empty());
+}
+
+// Twelve faces a turn and thirteen, and twelve of which only a part touches.
+TEST(ModelChecks, ArcsOfTwelveFacesATurn)
+{
+  contact::Options fit;
+  fit.name = "fit";
+  const auto with_faces = [](double a_turn, int apart) {
+    contact::InitialGap gap;
+    gap.touching = 0.01;
+    contact::note_gap(gap, 0, 0, false, 1, Point(0, 0, 0));
+    for (int i = 0; i < apart; ++i) contact::note_gap(gap, 1, 1, false, 1, Point(0, 0, 0));
+    contact::note_turn(gap, 0.1, 0, Point(1, 0, 0));
+    contact::note_turn(gap, 2 * std::numbers::pi / a_turn, 0.3, Point(4, 5, 6));
+    return std::vector{gap};
+  };
+  const auto found = coarse_arcs(with_faces(12, 0), std::vector{fit});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].value, 30, 1e-9);
+  EXPECT_EQ(found[0].at, Point(4, 5, 6));
+  EXPECT_NE(found[0].text.find("by 0.3 between"), std::string::npos) << found[0].text;
+  EXPECT_TRUE(coarse_arcs(with_faces(13, 0), std::vector{fit}).empty());
+  EXPECT_TRUE(coarse_arcs(with_faces(12, 1), std::vector{fit}).empty());
 }
 
 // A bond across a gap of a tenth of a face; where it touches somewhere the mesh may be to blame, though not for half a face.

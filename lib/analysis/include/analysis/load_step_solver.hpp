@@ -24,6 +24,8 @@ struct Magnitudes {
 
   /// An energy norm that counts as none, see qp::Goal::negligible.
   double negligible() const { return 1e-8 * energy_norm; }
+  /// A force that counts as none.
+  double unfelt() const { return 1e-8 * force; }
 };
 
 /// A solved load state, from which the next one starts. A value.

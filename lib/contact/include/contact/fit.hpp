@@ -56,6 +56,10 @@ struct InitialGap {
   double mesh_smallest = std::numeric_limits<double>::infinity(), mesh_largest = -mesh_smallest;
   std::array<double, 3> mesh_largest_at{0, 0, 0};
   double face = 0;  ///< the longest distance of two corners of a secondary face
+  /// The largest turn of a round surface that one face with nodes that touch spans, in radians, where only the meshes say what the
+  /// gap is; how far the face stands back from it between its nodes, about, and where.
+  double turn = 0, rise = 0;
+  std::array<double, 3> turn_at{0, 0, 0};
 
   /// In length units; 0 where nothing overlaps.
   double largest_overlap() const { return smallest < 0 ? -smallest : 0; }
@@ -72,6 +76,9 @@ bool asks_geometry(const Options& options);
 
 /// Adds a contact node to `all`.
 void note_gap(InitialGap& all, double gap, double mesh_gap, bool one_surface, double area, const Point& at);
+
+/// Takes the turn that a face with its middle at `at` spans, if it is the largest.
+void note_turn(InitialGap& all, double turn, double rise, const Point& at);
 
 /// The initial gap over the nodes of all ranks. Collective.
 InitialGap over_ranks(InitialGap mine, const Communicator& comm);

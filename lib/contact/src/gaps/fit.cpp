@@ -57,6 +57,13 @@ void note_gap(InitialGap& all, double gap, double mesh_gap, bool one_surface, do
   all.largest_in_mesh = std::max(all.largest_in_mesh, mesh_gap);
 }
 
+void note_turn(InitialGap& all, double turn, double rise, const Point& at)
+{
+  const std::array<double, 3> place{at[0], at[1], at[2]};
+  if (turn > all.turn || (turn == all.turn && turn > 0 && place < all.turn_at))
+    all.turn = turn, all.rise = rise, all.turn_at = place;
+}
+
 InitialGap over_ranks(InitialGap mine, const Communicator& comm)
 {
   InitialGap result;
@@ -73,6 +80,7 @@ InitialGap over_ranks(InitialGap mine, const Communicator& comm)
     take_largest_of_meshes(result, part.mesh_largest, part.mesh_largest_at);
     result.least_in_mesh = std::min(result.least_in_mesh, part.least_in_mesh);
     result.largest_in_mesh = std::max(result.largest_in_mesh, part.largest_in_mesh);
+    note_turn(result, part.turn, part.rise, Point(part.turn_at.data()));
   }
   return result;
 }

@@ -13,7 +13,7 @@ namespace mortise::feti {
 
 /// Rows of B, less supports that are eliminated, from which on a direct solution may take sparse matrices; below, dense ones take
 /// a moment. And how many times the time of dense ones these are worth, which often need more guesses than are foreseen.
-constexpr Global many_rows = 2500;
+constexpr Global many_rows = 1000;
 constexpr double worth_of_sparse = 2;
 
 /// Operations of a direct solution with dense matrices, over `free` rows without a constraint and `closing` others; and with

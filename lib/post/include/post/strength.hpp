@@ -24,10 +24,10 @@ std::vector<Warning> large_pressures(std::span<const contact::SurfaceState> surf
 /// "narrow_contact": a contact presses, but on no face of its secondary side at all corners, so that it is narrower than these
 /// faces: its area, its pressures and how far bodies approach are those of the mesh. Or on one or two faces across, on which a
 /// pressure that is not even loses more than a sixth in the mean over faces. Patches of faces that hang together are judged each
-/// for itself, where they matter beside the others of their contact, and beside `forces`, Balance::acting. Collective.
+/// for itself, where they matter beside the others of their contact and bear more than `nothing`, a force. Collective.
 std::vector<Warning> narrow_contacts(std::span<const contact::SurfaceState> surfaces,
                                      std::span<const contact::ContactNodeState> states, std::span<const contact::Pair> pairs,
-                                     double forces, const Communicator& comm);
+                                     double nothing, const Communicator& comm);
 
 /// "scattered_contact": a secondary side of smaller faces and more than four times the other side's Young's modulus presses on
 /// few faces at all corners, on twice as many, eight at least, at some: the soft side's faces cannot follow a stiff one between
