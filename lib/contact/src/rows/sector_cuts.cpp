@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "base/error.hpp"
 #include "contact/cyclic.hpp"
@@ -46,12 +47,13 @@ void require_one_surface(const Pair& pair, const PairSize& size, const CutFit& f
   const double part = fit.covered / std::max(area(pair.secondary), area(*pair.primary));
   if (part >= 1 - uncovered && fit.widest <= allowed(size)) return;
   const double angle = pair.options.cyclic->angle;
-  throw Error(
-      ExitStatus::bad_input,
-      fmt::format("contact \"{}\": turned by {:.6g} degrees, the primary boundary does not lie on the secondary one: they have "
-                  "{:.0f} % of the larger one in common and are up to {:.3g} apart; try angle: {:.6g}, which turns the "
-                  "other way, or mend axis, center or the names of the cuts",
-                  pair.options.name, angle, 100 * part, fit.widest, -angle));
+  const std::string found = fit.meet() ? fmt::format("they have {:.0f} % of the larger one in common and are up to {:.3g} apart",
+                                                     100 * part, fit.widest)
+                                       : "they have nothing in common";
+  throw Error(ExitStatus::bad_input,
+              fmt::format("contact \"{}\": turned by {:.6g} degrees, the primary boundary does not lie on the secondary one: {}; "
+                          "try angle: {:.6g}, which turns the other way, or mend axis, center or the names of the cuts",
+                          pair.options.name, angle, found, -angle));
 }
 
 bool may_be_turned_wrongly(const Pair& pair, const PairSize& size, const CutFit& fit)
