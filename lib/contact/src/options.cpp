@@ -204,13 +204,12 @@ void describe(deck::Description<Options>& d)
       .at_least(0);
   d.key("preload", &Options::preload,
         "{force: tension} or {shortening: length} of a bolt that is cut into two bodies, bonded here: bonded contacts alone.");
-  d.key(
-      "cyclic", &Options::cyclic,
-      "{axis: [..], angle: 360/n, center: [..]}: the model is one of n equal sectors, and this turn of 360/n degrees, either way "
-      "round, brings the primary boundary to the secondary one, where the next sector begins. With `friction: {bonded: true}` "
-      "the "
-      "two are the cuts through the material, whose meshes need not match; with other laws sectors touch their neighbours "
-      "there.");
+  d.key("cyclic", &Options::cyclic,
+        "{axis: [..], angle: 360/n, center: [..]}: the model is one of n equal sectors, and this turn of 360/n degrees about the "
+        "axis, positive by the right-hand rule or negative, brings the primary boundary to the secondary one, where the next "
+        "sector begins. With `friction: {bonded: true}` the two are the cuts through the material, whose meshes need not match; "
+        "with other laws sectors touch their neighbours "
+        "there.");
   d.rule(gap_rules());
   d.rule(pair_rules());
   d.check(check_options);

@@ -88,29 +88,15 @@ TEST(BondOwners, TheLastOfARingGivesWay)
   EXPECT_EQ(other[0].node, 20);
 }
 
-// Nodes 3, 10 and 20 of three bodies coincide, and are tied by three rows, of which two imply the third.
-TEST(BondOwners, OfPairsThatCloseACircleTheLastIsImplied)
-{
-  const std::vector<NodeOfBond> sides{{3, 0}, {3, 1}, {10, 0}, {10, 2}, {20, 1}, {20, 2}};
-  std::vector<CoveredNode> nodes{
-      {3, 0, true, 1, {10, 11, -1, -1}, 10}, {10, 2, true, 1, {20, 21, -1, -1}, 20}, {20, 1, true, 1, {3, 4, -1, -1}, 3}};
-  const auto found = nodes_of_others(nodes, sides, self());
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].node, 10);
-  EXPECT_EQ(found[0].bond, 2);
-  nodes[2].partner = 4;  // another node there: no circle
-  EXPECT_TRUE(nodes_of_others(nodes, sides, self()).empty());
-}
-
 // A sector of two rings, 1 to 10 by bond 0, with cuts of their own, bonds 1 and 2: from node 1 on the way leads to node 2 of the
 // next sector, there by bond 0 to node 20, and by the other cut back to node 10.
 TEST(BondOwners, RoundASectorTheBondOfTwoRingsClosesTheRing)
 {
   const std::vector<NodeOfBond> sides{{1, 0}, {1, 1}, {2, 0}, {2, 1}, {10, 0}, {10, 2}, {20, 0}, {20, 2}};
   std::vector<CoveredNode> nodes{{1, 0, false, 0.5, {10, 11, -1, -1}},
-                                 {1, 1, true, 0.5, {2, 3, -1, -1}, 2, true},
+                                 {1, 1, true, 0.5, {2, 3, -1, -1}, true},
                                  {2, 0, false, 0.5, {20, 21, -1, -1}},
-                                 {10, 2, true, 0.5, {20, 22, -1, -1}, 20, true}};
+                                 {10, 2, true, 0.5, {20, 22, -1, -1}, true}};
   const auto found = nodes_of_others(nodes, sides, self());
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].node, 1);

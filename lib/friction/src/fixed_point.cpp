@@ -16,6 +16,14 @@ namespace {
 
 constexpr double worth_a_look = 0.05;  // change of the slip bounds at which the allowed error is asked for
 
+// All changes that are to come over the next one, if each is so much of the one before; `response`: see CoulombSearch.
+double to_come(double response)
+{
+  constexpr double most = 100;
+  if (response == 1) return 1;  // unknown
+  return response < 1 ? std::min(1 / (1 - response), most) : most;
+}
+
 }  // namespace
 
 // One Tresca problem; false if it is infeasible.
@@ -63,7 +71,7 @@ bool CoulombSearch::at_rest(const std::vector<double>& wanted, double tolerance)
   const bool bounds_rest = change_ <= problem_.options.tolerance;
   if (!goal.allowed_error || !std::isfinite(solution.error))
     return bounds_rest && tolerance <= goal.residual && solution.converged && believable();
-  solution.error += error_of_bounds(wanted);
+  solution.error += error_of_bounds(wanted) * to_come(response_);
   if (change_ <= worth_a_look && solution.error <= goal.allowed_error(solution.x, solution.nu) && qp::fits(solution, goal) &&
       balances(problem_.dual, problem_.omega, wanted, solution.x) && contacts_at_rest())
     return true;

@@ -10,9 +10,9 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr double dependent = 1e-10;         // of what a row gives way with all others: less alone comes of rounding
-constexpr double apart = 1e-6;              // compliance of its own that such a row is given, over that,
-constexpr double told_apart = 1e-4;         // and that it is taken to have, so that rounding of what it feels is no force
+constexpr double dependent = 1e-10;  // of what a row gives way with all others: less alone comes of rounding
+constexpr double apart = 1e-6;       // compliance of its own that such a row is given, over that,
+constexpr double told_apart = 1e-4;  // and that it is taken to have, so that rounding of what it feels is no force
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -31,6 +31,21 @@ VectorXd diagonal_of_inverse(const Eigen::LLT<MatrixXd>& factor)
   return result;
 }
 
+// Rows that depend on each other, as those of two contacts along the edge that a body has in a corner: how a force is shared out
+// between them is open, and rounding alone would tell it, and states. A little compliance of their own shares it out evenly.
+// `own`: what each gives way alone. Returns which they are.
+std::vector<Eigen::Index> separate(MatrixXd& w, const VectorXd& own)
+{
+  auto diagonal = w.diagonal();
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < diagonal.size(); ++i) {
+    if (own[i] > dependent * diagonal[i]) continue;
+    diagonal[i] *= 1 + apart;
+    rows.push_back(i);
+  }
+  return rows;
+}
+
 }  // namespace
 
 CondensedNewton::CondensedNewton(MatrixXd a, MatrixXd g, MatrixXd c, const FeasibleSet& set) : constrained_(set.constrained())
@@ -40,7 +55,7 @@ CondensedNewton::CondensedNewton(MatrixXd a, MatrixXd g, MatrixXd c, const Feasi
   for (Local i = 0; i < static_cast<Local>(a.rows()); ++i)
     if (!taken[static_cast<std::size_t>(i)]) others_.push_back(i);
   const MatrixXd between = a(others_, constrained_), g_free = g(Eigen::all, others_);
-  free_ = factorize(a(others_, others_));
+  factorize_free(a(others_, others_));
   coupling_ = qp::solve(free_, between);
   motion_ = qp::solve(free_, g_free.transpose());
   matrices_.w = a(constrained_, constrained_);
@@ -52,9 +67,9 @@ CondensedNewton::CondensedNewton(MatrixXd a, MatrixXd g, MatrixXd c, const Feasi
   matrices_.c = std::move(c);
   matrices_.c.noalias() += g_free * motion_;
   measure();
-  const auto dependent_rows = separate_dependent_rows();
-  separated_ = !dependent_rows.empty();
-  if (!separated_) return;
+  const auto dependent_rows = separate(matrices_.w, matrices_.own);
+  if (dependent_rows.empty()) return;
+  separated_ = true;
   measure();
   for (const auto i : dependent_rows) matrices_.own[i] = std::max(matrices_.own[i], told_apart * matrices_.w(i, i));
 }
@@ -66,19 +81,16 @@ void CondensedNewton::measure()
   matrices_.own = diagonal_of_inverse(contact_).cwiseInverse();
 }
 
-// Rows that depend on each other, as those of two contacts along the edge that a body has in a corner: how a force is shared out
-// between them is open, and rounding alone would tell their states. A little compliance of their own shares it out evenly.
-// Returns which they are.
-std::vector<Eigen::Index> CondensedNewton::separate_dependent_rows()
+// The same of rows without a constraint, as those of bonds round a common edge. The last of those that depend on each other has
+// no pivot of its own.
+void CondensedNewton::factorize_free(MatrixXd a)
 {
-  auto diagonal = matrices_.w.diagonal();
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < diagonal.size(); ++i) {
-    if (matrices_.own[i] > dependent * diagonal[i]) continue;
-    diagonal[i] *= 1 + apart;
-    rows.push_back(i);
-  }
-  return rows;
+  constexpr double no_pivot = 10 * dependent;
+  free_ = factorize(a);
+  const VectorXd pivots = free_.matrixLLT().diagonal().cwiseAbs2();
+  if ((pivots.array() > no_pivot * a.diagonal().array()).all()) return;
+  separated_ = !separate(a, diagonal_of_inverse(free_).cwiseInverse()).empty();
+  if (separated_) free_ = factorize(a);
 }
 
 VectorXd CondensedNewton::inverse_times(const VectorXd& r) const
@@ -95,7 +107,8 @@ CondensedNewton::Point CondensedNewton::solve(const VectorXd& b, const VectorXd&
 {
   StateSearch search({matrices_, contact_, set.compact(), b(constrained_) - coupling_.transpose() * b(others_),
                       e - motion_.transpose() * b(others_)});
-  const bool converged = near ? search.from(near->x(constrained_), near->nu, near->reaction(constrained_)) : search.from_anywhere();
+  const bool converged =
+      near ? search.from(near->x(constrained_), near->nu, near->reaction(constrained_)) : search.from_anywhere();
   if (converged) search.polish();
   Point point = search.point();
   point.converged = converged;

@@ -9,12 +9,12 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr double way_of_path = 1e-10;   // compliance of a row over its own, along the path
-constexpr double way_of_guess = 1e-6;   // and in a guess, whose solution is repeated
+constexpr double way_of_path = 1e-10;  // compliance of a row over its own, along the path
+constexpr double way_of_guess = 1e-6;  // and in a guess, whose solution is repeated
 constexpr int repeats_of_path = 2;
-constexpr int repeats_of_guess = 8;     // at most,
-constexpr double nearer_repeat = 0.5;   // as long as each leaves less than this of what the one before has left
-constexpr double softest_ratio = 1e4;   // largest W_ii over own that is worth softening for: plates bend that much
+constexpr int repeats_of_guess = 8;    // at most,
+constexpr double nearer_repeat = 0.5;  // as long as each leaves less than this of what the one before has left
+constexpr double softest_ratio = 1e4;  // largest W_ii over own that is worth softening for: plates bend that much
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -180,7 +180,7 @@ void SparseSystem::solve(const Guess& guess, const VectorXd& b, const VectorXd& 
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     z.emplace_back(moving.trial[k] * moving.inverse[k] * moving.test[k]);
     near.push_back(guess.symmetric ? z[k] : MatrixXd(moving.test[k].transpose() * answered(moving.inverse[k]) * moving.test[k]));
-    amount.emplace_back(moving.test[k] * (x - guess.base)(blocks[k]));
+    amount.emplace_back(VectorXd::Zero(moving.test[k].rows()));  // what rows share out stays even
   }
   if (!stiffness_.factorize(std::move(z), near)) {  // states that hold nothing
     x.setConstant(std::numeric_limits<double>::quiet_NaN());

@@ -122,6 +122,25 @@ TEST(CondensedNewton, RowsThatDependOnEachOther)
   }
 }
 
+// Bonds round a common edge: a row without a constraint comes three times, and its force is shared out evenly.
+TEST(CondensedNewton, RowsWithoutAConstraintThatDependOnEachOther)
+{
+  for (int seed = 1; seed <= 20; ++seed) {
+    const auto once = random_programme(seed, 6, 1, 10, 0);
+    const Index n = once.b.size();
+    MatrixXd copies(n + 2, n);
+    copies << MatrixXd::Identity(n, n), MatrixXd::Identity(n, n).bottomRows(1), MatrixXd::Identity(n, n).bottomRows(1);
+    const MatrixProgramme p{copies * once.a * copies.transpose(), once.g * copies.transpose(), copies * once.b, once.e, once.set};
+    const auto condensed = p.condensed();
+    EXPECT_TRUE(condensed.separated());
+    const auto expected = once.solve(), point = condensed.solve(p.b, p.e, p.set);
+    ASSERT_TRUE(expected.converged && point.converged) << seed;
+    const double size = expected.x.norm();
+    EXPECT_LT((point.x.head(n - 1) - expected.x.head(n - 1)).norm(), 1e-5 * size) << seed;
+    for (Index copy = n - 1; copy < n + 2; ++copy) EXPECT_NEAR(point.x[copy], expected.x[n - 1] / 3, 1e-5 * size) << seed;
+  }
+}
+
 TEST(CondensedNewton, RefusesWhatIsNotDefinite)
 {
   auto p = random_programme(3, 4, 1, 5, 0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace mortise::contact {
 
@@ -39,28 +40,39 @@ double rise_of(double turn, double chord)
 }  // namespace
 
 void note_turns(const Side& secondary, const SurfaceNodes& surface_nodes, const Side& primary, const SurfaceNodes& primary_nodes,
-                Rays& rays, std::span<const char> touches, InitialGap& all)
+                Rays& rays, InitialGap& all)
 {
+  constexpr double border = 0.1;     // of a shape function: a place nearer to the border of a facet says little of it
+  constexpr double on_a_flat = 0.1;  // of the rise: a face that lies so near on the plane of another one is a flat on a flat
   const auto note = [&](const Side& side, std::size_t facet, double turn) {
     const auto geometry = side.geometry(facet);
     note_turn(all, turn, rise_of(turn, geometry.size()), geometry.centre());
   };
   for (std::size_t facet = 0; facet < secondary.facets.size(); ++facet) {
+    const std::size_t corners = secondary.facets[facet].size();
     const auto at = [&](std::size_t k) {
       return static_cast<std::size_t>(surface_nodes.of_corner[static_cast<std::size_t>(secondary.facets.offset[facet]) + k]);
     };
-    const std::size_t corners = secondary.facets[facet].size();
+    std::vector<const Opposite*> opposite;
+    for (std::size_t k = 0; k < corners; ++k)
+      if (const Opposite& there = rays.meet(at(k)); std::abs(there.gap) <= all.touching) opposite.push_back(&there);
+    if (opposite.size() < corners) continue;
+    const Point middle = secondary.geometry(facet).centre();
+    double turn = turn_of(secondary, surface_nodes, facet);
     for (std::size_t k = 0; k < corners; ++k) {
-      const Opposite* here = touches[at(k)] ? &rays.meet(at(k)) : nullptr;
-      if (here == nullptr || !std::isfinite(here->gap)) continue;
-      note(secondary, facet, turn_of(secondary, surface_nodes, facet));
-      note(primary, here->facet, turn_of(primary, primary_nodes, here->facet));
-      const Opposite& beyond = rays.meet(at((k + 1) % corners));
-      if (!touches[at((k + 1) % corners)] || !std::isfinite(beyond.gap)) continue;
-      const double own = angle_between(surface_nodes.all[at(k)].normal, surface_nodes.all[at((k + 1) % corners)].normal);
-      const double opposite = angle_between(normal_at(primary, primary_nodes, *here), normal_at(primary, primary_nodes, beyond));
-      note(secondary, facet, opposite - own);
+      const std::size_t next = (k + 1) % corners;
+      const double own = angle_between(surface_nodes.all[at(k)].normal, surface_nodes.all[at(next)].normal);
+      const double beyond =
+          angle_between(normal_at(primary, primary_nodes, *opposite[k]), normal_at(primary, primary_nodes, *opposite[next]));
+      turn = std::max(turn, beyond - own);
+      if (opposite[k]->hit.shape.head(static_cast<Eigen::Index>(primary.facets[opposite[k]->facet].size())).minCoeff() > border)
+        note(primary, opposite[k]->facet, turn_of(primary, primary_nodes, opposite[k]->facet));
     }
+    const bool flat_on_flat = std::ranges::any_of(opposite, [&](const Opposite* there) {
+      const auto face = primary.geometry(there->facet);
+      return std::abs(face.normal().dot(middle - face.centre())) <= on_a_flat * rise_of(turn, secondary.geometry(facet).size());
+    });
+    if (!flat_on_flat) note(secondary, facet, turn);
   }
 }
 

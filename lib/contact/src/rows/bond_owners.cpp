@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -159,38 +158,6 @@ std::vector<CoveredNode> of_several(const std::vector<CoveredNode>& covered, con
   return result;
 }
 
-// A node of a bond that coincides with one of the other side, and which of all bonds this is.
-struct PairOfNodes {
-  std::array<int, 2> rank;
-  Global node, partner;
-};
-
-// Those pairs that others imply, of all ranks: as edges of a graph they close circles. Collective.
-std::set<std::pair<Global, int>> implied_pairs(const std::vector<CoveredNode>& covered, const std::vector<NodeOfBond>& dropped,
-                                               const Bonds& bonds, const Communicator& comm)
-{
-  std::set<std::pair<Global, int>> without_row;
-  for (const auto& [node, bond] : dropped) without_row.insert({node, bond});
-  std::vector<PairOfNodes> pairs;
-  for (const auto& node : covered)
-    if (node.matches && node.partner >= 0 && node.partner != node.node && !without_row.contains({node.node, node.bond}))
-      pairs.push_back({bonds.rank(node.bond), node.node, node.partner});
-  pairs = comm.all_gather(pairs);
-  std::ranges::sort(pairs, {}, [](const PairOfNodes& pair) { return std::pair(pair.rank, pair.node); });
-  std::map<Global, Global> towards;
-  const auto root = [&](Global node) {
-    for (auto next = towards.find(node); next != towards.end(); next = towards.find(node)) node = next->second;
-    return node;
-  };
-  std::set<std::pair<Global, int>> implied;
-  for (const auto& [rank, node, partner] : pairs)
-    if (const Global a = root(node), b = root(partner); a != b)
-      towards[std::max(a, b)] = std::min(a, b);
-    else
-      implied.insert({node, rank[1]});
-  return implied;
-}
-
 std::vector<Global> all_nodes(const std::vector<CoveredNode>& covered)
 {
   std::set<Global> result;
@@ -203,15 +170,6 @@ std::vector<Global> all_nodes(const std::vector<CoveredNode>& covered)
 }
 
 }  // namespace
-
-void CoveredNode::lies_opposite(const Side& primary, const Opposite& place)
-{
-  const auto corners = primary.facets[place.facet];
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    opposite[k] = primary.node_id[static_cast<std::size_t>(corners[k])];
-    if (place.hit.shape[static_cast<Eigen::Index>(k)] > 1 - same_node) partner = opposite[k];
-  }
-}
 
 std::vector<NodeOfBond> nodes_of_others(const std::vector<CoveredNode>& covered, const std::vector<NodeOfBond>& sides,
                                         const Communicator& comm)
@@ -252,9 +210,6 @@ std::vector<NodeOfBond> nodes_of_others(const std::vector<CoveredNode>& covered,
   for (const auto& node : several)
     if (!node.matches && !is_past_border(node) && closes_ring(node, bonds.of(node.node), bonds, parted))
       result.push_back({node.node, node.bond});
-  const auto implied = implied_pairs(several, result, bonds, comm);
-  for (const auto& node : several)
-    if (implied.contains({node.node, node.bond})) result.push_back({node.node, node.bond});
   std::ranges::stable_sort(result, {}, &NodeOfBond::node);
   return result;
 }

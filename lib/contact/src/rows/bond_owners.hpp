@@ -3,8 +3,8 @@
 // A body that is bonded to two others round their common edge would tie these to each other at each of its own nodes there, as
 // stiffly as these are close, besides what ties them otherwise. As the mortar method has it where multipliers meet, all but one
 // of the bonds do without [Wohlmuth, Discretization methods and iterative solvers based on domain decomposition, Springer
-// (2001)]. Where faces match, rows tie pairs of nodes, and agree with each other: only those go that others imply, for the
-// forces of rows that depend on each other are anything. Where nothing else ties the others, all bonds stay.
+// (2001)]. Where faces match, rows tie pairs of nodes, and agree with each other. Where nothing else ties the others, all bonds
+// stay.
 #pragma once
 
 #include <array>
@@ -32,10 +32,7 @@ struct CoveredNode {
   bool matches = false;                            ///< see on_matching_faces()
   double cover = 0;                                ///< see ContactNodes
   std::array<Global, 4> opposite{-1, -1, -1, -1};  ///< nodes of the facet that lies opposite, if one does
-  Global partner = -1;                             ///< the one of them that the node coincides with
   bool cyclic = false;                             ///< the bond ties cuts of a sector
-
-  void lies_opposite(const Side& primary, const Opposite& place);
 };
 
 /// The nodes that belong to another bond than `bond`: one that covers more of what is round them, the first of several. Both

@@ -122,9 +122,11 @@ class ContactBuilder {
       if (!own(p) || !(cover[p] > 0)) continue;
       CoveredNode node{node_of(p), index_, matches_[p] != 0, cover[p]};
       node.cyclic = options_.cyclic.has_value();
-      if (const Opposite& opposite = rays_.meet(p); !options_.obstacle && std::isfinite(opposite.gap))
-        node.lies_opposite(primary_, opposite);
-      if (options_.preload) node.partner = -1;  // which moves away
+      if (const Opposite& opposite = rays_.meet(p); !options_.obstacle && std::isfinite(opposite.gap)) {
+        const auto corners = primary_.facets[opposite.facet];
+        for (std::size_t k = 0; k < corners.size(); ++k)
+          node.opposite[k] = primary_.node_id[static_cast<std::size_t>(corners[k])];
+      }
       result.push_back(node);
     }
     return result;
@@ -145,12 +147,12 @@ class ContactBuilder {
         if (const auto& n = nodes_.all[p].normal; own(p) && chosen_.shared[p])
           contacts.without_rows.push_back(
               {index_, secondary_.node_id[static_cast<std::size_t>(nodes_.all[p].node)], {n[0], n[1], n[2]}});
-    touches_.assign(nodes_.all.size(), 0);
     discretization_->make_functions(chosen_.kept);
     faces_.sort_by_nodes();
     for (std::size_t p = 0; p < faces_.places(); ++p)
       if (own(p) && chosen_.kept[p]) add_place(p, contacts);
-    if (!options_.obstacle) note_turns(secondary_, nodes_, primary_, primary_nodes_, rays_, touches_, initial_gap_);
+    if (mesh_gaps_ && !options_.obstacle && !one_surface_.anywhere())
+      note_turns(secondary_, nodes_, primary_, primary_nodes_, rays_, initial_gap_);
     // Tresca's bound is an area's, which belongs to the nodes.
     const bool tangents = options_.law != Law::frictionless && options_.law != Law::tresca;
     between_->add_to(contacts, supports, {index_, secondary_.kinematics, rotation_of(options_), tangents},
@@ -287,7 +289,6 @@ class ContactBuilder {
     const double mean = (normal.dot(separation) - rise / d) / weight;
     const auto [mesh_gap, gap] = gaps_.at_node(p, at_nearest_place(p), at, normal, mean, terms_);
     note_gap(initial_gap_, gap, mesh_gap, gaps_.by_geometry(gap), d * weight, node.at);
-    if (mesh_gaps_ && gap <= initial_gap_.touching && !gaps_.by_geometry(gap)) touches_[faces_.surface_node(p)] = 1;
     node.gap = bonded() ? 0 : weight * (gap - options_.interference);
     node.prescribed_share = bonded() ? 0 : prescribed_on_both_sides(normal);
     if (!bonded() && (prescribed || writer_.part_that_moves(terms_, d, normal) < hardly_moves))
@@ -389,7 +390,6 @@ class ContactBuilder {
   std::unique_ptr<Discretization> discretization_;
   OneSurface one_surface_;
   InitialGap initial_gap_;
-  std::vector<char> touches_;  // of each surface node, if only the meshes say so
   MultiplierPoints points_;
   StartingGaps gaps_;
   OppositeSupports opposite_supports_;

@@ -52,8 +52,8 @@ class CondensedNewton {
   Eigen::VectorXd inverse_times(const Eigen::VectorXd& r) const;
 
  private:
+  void factorize_free(Eigen::MatrixXd a);
   void measure();
-  std::vector<Eigen::Index> separate_dependent_rows();
 
   std::vector<Local> constrained_, others_;  // unknowns
   CondensedMatrices matrices_;
