@@ -266,11 +266,12 @@ std::vector<Warning> coarse_arcs(std::span<const contact::InitialGap> gaps, std:
   std::vector<Warning> result;
   for (std::size_t c = 0; c < gaps.size(); ++c) {
     const auto& gap = gaps[c];
-    if (!(gap.turn > limit * degree) || !(gap.near_area > touching * gap.area)) continue;
+    const bool touches = gap.near_area > touching * gap.area, stands_off = gap.smallest > gap.touching;
+    if (!(gap.turn > limit * degree) || !(touches || stands_off)) continue;
     Warning warning{
         "coarse_arc",
         fmt::format("contact {}: a face at ({:.5g}, {:.5g}, {:.5g}) spans {:.0f} degrees of a round surface and stands back from "
-                    "it by {:.3g} between its nodes; that is taken for an error of the mesh, and the face for all in contact",
+                    "it by {:.3g} between its nodes; that is taken for an error of the mesh, and the side for round",
                     contacts[c].name, gap.turn_at[0], gap.turn_at[1], gap.turn_at[2], gap.turn / degree, gap.rise),
         "if the side is round, make its faces smaller; if it has flats, mesh each with two faces or more across"};
     warning.at = Point(gap.turn_at.data());

@@ -301,6 +301,11 @@ TEST(ModelChecks, ArcsOfTwelveFacesATurn)
   EXPECT_NE(found[0].text.find("by 0.3 between"), std::string::npos) << found[0].text;
   EXPECT_TRUE(coarse_arcs(with_faces(13, 0), std::vector{fit}).empty());
   EXPECT_TRUE(coarse_arcs(with_faces(12, 1), std::vector{fit}).empty());
+  contact::InitialGap apart;
+  apart.touching = 0.01;
+  contact::note_gap(apart, 0.3, 0.3, false, 1, Point(0, 0, 0));
+  contact::note_turn(apart, 0.6, 0.3, Point(1, 0, 0));
+  EXPECT_EQ(coarse_arcs(std::vector{apart}, std::vector{fit}).size(), 1U);
 }
 
 // A bond across a gap of a tenth of a face; where it touches somewhere the mesh may be to blame, though not for half a face.

@@ -42,11 +42,20 @@ double rise_of(double turn, double chord)
 void note_turns(const Side& secondary, const SurfaceNodes& surface_nodes, const Side& primary, const SurfaceNodes& primary_nodes,
                 Rays& rays, InitialGap& all)
 {
+  constexpr double with_rounding = 1.01;
   constexpr double border = 0.1;     // of a shape function: a place nearer to the border of a facet says little of it
   constexpr double on_a_flat = 0.1;  // of the rise: a face that lies so near on the plane of another one is a flat on a flat
   const auto note = [&](const Side& side, std::size_t facet, double turn) {
     const auto geometry = side.geometry(facet);
     note_turn(all, turn, rise_of(turn, geometry.size()), geometry.centre());
+  };
+  // Of a facet that is met well inside, if it would touch were it a flat.
+  const auto note_opposite = [&](const Opposite& there) {
+    const auto corners = static_cast<Eigen::Index>(primary.facets[there.facet].size());
+    if (there.hit.shape.head(corners).minCoeff() <= border) return;
+    const double turn = turn_of(primary, primary_nodes, there.facet);
+    const double rise = rise_of(turn, primary.geometry(there.facet).size());
+    if (std::abs(there.gap) <= std::max(all.touching, with_rounding * rise)) note(primary, there.facet, turn);
   };
   for (std::size_t facet = 0; facet < secondary.facets.size(); ++facet) {
     const std::size_t corners = secondary.facets[facet].size();
@@ -54,8 +63,11 @@ void note_turns(const Side& secondary, const SurfaceNodes& surface_nodes, const 
       return static_cast<std::size_t>(surface_nodes.of_corner[static_cast<std::size_t>(secondary.facets.offset[facet]) + k]);
     };
     std::vector<const Opposite*> opposite;
-    for (std::size_t k = 0; k < corners; ++k)
-      if (const Opposite& there = rays.meet(at(k)); std::abs(there.gap) <= all.touching) opposite.push_back(&there);
+    for (std::size_t k = 0; k < corners; ++k) {
+      const Opposite& there = rays.meet(at(k));
+      if (std::isfinite(there.gap)) note_opposite(there);
+      if (std::abs(there.gap) <= all.touching) opposite.push_back(&there);
+    }
     if (opposite.size() < corners) continue;
     const Point middle = secondary.geometry(facet).centre();
     double turn = turn_of(secondary, surface_nodes, facet);
@@ -65,8 +77,6 @@ void note_turns(const Side& secondary, const SurfaceNodes& surface_nodes, const 
       const double beyond =
           angle_between(normal_at(primary, primary_nodes, *opposite[k]), normal_at(primary, primary_nodes, *opposite[next]));
       turn = std::max(turn, beyond - own);
-      if (opposite[k]->hit.shape.head(static_cast<Eigen::Index>(primary.facets[opposite[k]->facet].size())).minCoeff() > border)
-        note(primary, opposite[k]->facet, turn_of(primary, primary_nodes, opposite[k]->facet));
     }
     const bool flat_on_flat = std::ranges::any_of(opposite, [&](const Opposite* there) {
       const auto face = primary.geometry(there->facet);
