@@ -371,6 +371,10 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
   append(result, post::lost_moments(results.moments, pairs, results.balance.acting));
   append(result,
          post::loose_fits(contact.states, pairs, *std::ranges::min_element(softest), *std::ranges::max_element(sizes), comm));
+  std::vector<double> areas;
+  for (const auto& resultant : contact.resultants) areas.push_back(resultant.area);
+  append(result, post::tied_preloads(state.rows->constraints.pretension_sections, results.shortenings, areas, pairs,
+                                     *std::ranges::max_element(softest)));
   append(result, post::frictions_across_gaps(contact.states, pairs, results.balance.acting, comm));
   append(result, post::pressing_overlaps(
                      {state.rows->constraints.contacts.nodes, contact.states, state.rows->initial_gaps, pairs, contact.surfaces},

@@ -88,6 +88,26 @@ TEST(BondOwners, TheLastOfARingGivesWay)
   EXPECT_EQ(other[0].node, 20);
 }
 
+// Pairs of nodes agree with each other, but not with those that a preload draws together.
+TEST(BondOwners, APreloadGivesWayWhereFacesMatch)
+{
+  auto nodes = node_on_two(1, 1, true);
+  nodes[0].preloaded = true;
+  const auto found = nodes_of_others(nodes, tied, self());
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].bond, 0);
+  EXPECT_TRUE(nodes_of_others(nodes, untied, self()).empty());
+
+  const std::vector<NodeOfBond> sides{{3, 0}, {3, 1}, {10, 0}, {10, 2}, {20, 1}, {20, 2}};
+  std::vector<CoveredNode> ring{
+      {3, 0, true, 1, {10, -1, -1, -1}}, {10, 2, true, 1, {20, -1, -1, -1}}, {20, 1, true, 1, {3, -1, -1, -1}}};
+  ring[0].preloaded = true;
+  const auto last = nodes_of_others(ring, sides, self());
+  ASSERT_EQ(last.size(), 1U);
+  EXPECT_EQ(last[0].node, 3);
+  EXPECT_EQ(last[0].bond, 0);
+}
+
 // A sector of two rings, 1 to 10 by bond 0, with cuts of their own, bonds 1 and 2: from node 1 on the way leads to node 2 of the
 // next sector, there by bond 0 to node 20, and by the other cut back to node 10.
 TEST(BondOwners, RoundASectorTheBondOfTwoRingsClosesTheRing)

@@ -164,6 +164,27 @@ std::vector<Warning> loose_fits(std::span<const contact::ContactNodeState> state
   return worst(std::move(result), "contacts", [](const Warning& w) { return w.limit; });
 }
 
+std::vector<Warning> tied_preloads(std::span<const constraint::PretensionSection> sections, std::span<const double> shortenings,
+                                   std::span<const double> areas, std::span<const contact::Pair> pairs, double modulus)
+{
+  constexpr double none = 1e-5;
+  std::vector<Warning> result;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const auto& preload = sections[i].preload;
+    const auto c = static_cast<std::size_t>(preload.contact);
+    if (!preload.force || !(areas[c] > 0)) continue;
+    const double limit = none * *preload.force / (modulus * std::sqrt(areas[c]));
+    if (std::abs(shortenings[i]) > limit) continue;
+    result.push_back(about(pairs[c], "tied_preload",
+                           fmt::format("the preload {:.4g} of contact {} shortens nothing: the two parts of its bolt are tied to "
+                                       "each other by other bonds at all nodes of the cut, and what it presses stays there",
+                                       *preload.force, preload.name),
+                           "cut the bolt where nothing else is bonded to it, or make the faces of the cut smaller",
+                           std::abs(shortenings[i]), limit));
+  }
+  return worst(std::move(result), "contacts", [](const Warning& w) { return w.limit; });
+}
+
 std::vector<Warning> frictions_across_gaps(std::span<const contact::ContactNodeState> states,
                                            std::span<const contact::Pair> pairs, double forces, const Communicator& comm)
 {

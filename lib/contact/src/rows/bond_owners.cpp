@@ -39,17 +39,19 @@ class Bonds {
       : known_(std::move(known))
   {
     Pairs beside;
-    std::set<int> unmatched, cyclic;
+    std::set<int> unmatched, cyclic, preloaded;
     for (std::size_t i = 0; i < sides.size(); ++i)
       for (std::size_t j = i + 1; j < sides.size() && sides[j].node == sides[i].node; ++j)
         if (sides[i].bond != sides[j].bond) beside.insert(ordered(sides[i].bond, sides[j].bond));
     for (const auto& node : covered) {
       if (!node.matches) unmatched.insert(node.bond);
       if (node.cyclic) cyclic.insert(node.bond);
+      if (node.preloaded) preloaded.insert(node.bond);
     }
     beside_ = united(beside, comm);
     unmatched_ = united(unmatched, comm);
     cyclic_ = united(cyclic, comm);
+    preloaded_ = united(preloaded, comm);
     for (const auto& [a, b] : beside_) all_.merge(std::set<int>{a, b});
   }
 
@@ -72,8 +74,8 @@ class Bonds {
 
   // Whether two bonds have nodes in common.
   bool beside(int a, int b) const { return a == b || beside_.contains(ordered(a, b)); }
-  // Where rings of bonds close the last one gives way: of those that do not match all over if there are any.
-  std::array<int, 2> rank(int bond) const { return {unmatched_.contains(bond), bond}; }
+  // Where rings of bonds close the last one gives way: a preloaded one, or one that does not match all over, if there are any.
+  std::array<int, 3> rank(int bond) const { return {preloaded_.contains(bond), unmatched_.contains(bond), bond}; }
   bool comes_before(int a, int b) const { return rank(a) < rank(b); }
   bool cyclic(int bond) const { return cyclic_.contains(bond); }
   const std::set<int>& all() const { return all_; }
@@ -81,7 +83,7 @@ class Bonds {
  private:
   std::vector<NodeOfBond> known_;
   Pairs beside_;
-  std::set<int> unmatched_, cyclic_;
+  std::set<int> unmatched_, cyclic_, preloaded_;
   std::set<int> all_;  // that have nodes in common with others
 };
 
@@ -129,10 +131,16 @@ bool closes_ring(const CoveredNode& node, const std::set<int>& of_node, const Bo
 
 bool is_past_border(const CoveredNode& node)
 {
-  return node.opposite[0] < 0;
+  return std::ranges::all_of(node.opposite, [](Global other) { return other < 0; });
 }
 
-// Visits nodes, each with its entries, those that cover most first; but cuts that match before others.
+// Rows that tie pairs of nodes agree with others that do.
+bool ties_pairs(const CoveredNode& node)
+{
+  return node.matches && !node.preloaded;
+}
+
+// Visits nodes, each with its entries, those that cover most first; but cuts that match before others, and preloads last.
 template <class Visit>
 void for_nodes(const std::vector<CoveredNode>& covered, const Visit& visit)
 {
@@ -141,7 +149,7 @@ void for_nodes(const std::vector<CoveredNode>& covered, const Visit& visit)
     std::vector<CoveredNode> entries(covered.begin() + static_cast<std::ptrdiff_t>(i),
                                      covered.begin() + static_cast<std::ptrdiff_t>(end));
     std::ranges::sort(entries, {}, [](const CoveredNode& e) {
-      return std::tuple(!(e.cyclic && e.matches), -std::llround(e.cover / as_much), e.bond);
+      return std::tuple(e.preloaded, !(e.cyclic && e.matches), -std::llround(e.cover / as_much), e.bond);
     });
     visit(entries);
   }
@@ -195,7 +203,7 @@ std::vector<NodeOfBond> nodes_of_others(const std::vector<CoveredNode>& covered,
     std::vector<CoveredNode> keep;
     for (const auto& entry : entries) {
       const auto other = std::ranges::find_if(keep, [&](const CoveredNode& kept) {
-        if (entry.matches && kept.matches) return false;
+        if (ties_pairs(entry) && ties_pairs(kept)) return false;
         if (is_past_border(entry) || is_past_border(kept)) return tied_somewhere.contains(ordered(entry.bond, kept.bond));
         return tied(entry, kept, of_node, bonds);
       });
@@ -208,7 +216,7 @@ std::vector<NodeOfBond> nodes_of_others(const std::vector<CoveredNode>& covered,
   });
   parted = united(parted, comm);
   for (const auto& node : several)
-    if (!node.matches && !is_past_border(node) && closes_ring(node, bonds.of(node.node), bonds, parted))
+    if (!ties_pairs(node) && !is_past_border(node) && closes_ring(node, bonds.of(node.node), bonds, parted))
       result.push_back({node.node, node.bond});
   std::ranges::stable_sort(result, {}, &NodeOfBond::node);
   return result;

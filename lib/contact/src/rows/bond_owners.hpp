@@ -3,8 +3,8 @@
 // A body that is bonded to two others round their common edge would tie these to each other at each of its own nodes there, as
 // stiffly as these are close, besides what ties them otherwise. As the mortar method has it where multipliers meet, all but one
 // of the bonds do without [Wohlmuth, Discretization methods and iterative solvers based on domain decomposition, Springer
-// (2001)]. Where faces match, rows tie pairs of nodes, and agree with each other. Where nothing else ties the others, all bonds
-// stay.
+// (2001)]. Where faces match, rows tie pairs of nodes, and agree with each other; but those of a preloaded bond, whose sides
+// part, agree with no others, and give way to them. Where nothing else ties the others, all bonds stay.
 #pragma once
 
 #include <array>
@@ -31,8 +31,9 @@ struct CoveredNode {
   int bond = 0;
   bool matches = false;                            ///< see on_matching_faces()
   double cover = 0;                                ///< see ContactNodes
-  std::array<Global, 4> opposite{-1, -1, -1, -1};  ///< nodes of the facet that lies opposite, if one does
+  std::array<Global, 4> opposite{-1, -1, -1, -1};  ///< corners of a facet between which what lies opposite is
   bool cyclic = false;                             ///< the bond ties cuts of a sector
+  bool preloaded = false;                          ///< the bond is a pretension section
 };
 
 /// The nodes that belong to another bond than `bond`: one that covers more of what is round them, the first of several. Both

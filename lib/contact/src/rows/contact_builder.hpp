@@ -35,6 +35,8 @@ namespace mortise::contact {
 
 // Of a row: where supports leave no more, what they push into each other is not for the rest to make good.
 inline constexpr double hardly_moves = 0.05;
+// Of a facet's corner, in what lies opposite a node.
+inline constexpr double no_part = 1e-6;
 
 // Nodes of a bond's secondary side at which others have rows, ascending.
 struct OthersNodes {
@@ -122,10 +124,12 @@ class ContactBuilder {
       if (!own(p) || !(cover[p] > 0)) continue;
       CoveredNode node{node_of(p), index_, matches_[p] != 0, cover[p]};
       node.cyclic = options_.cyclic.has_value();
+      node.preloaded = options_.preload.has_value();
       if (const Opposite& opposite = rays_.meet(p); !options_.obstacle && std::isfinite(opposite.gap)) {
         const auto corners = primary_.facets[opposite.facet];
         for (std::size_t k = 0; k < corners.size(); ++k)
-          node.opposite[k] = primary_.node_id[static_cast<std::size_t>(corners[k])];
+          if (opposite.hit.shape[static_cast<Eigen::Index>(k)] > no_part)
+            node.opposite[k] = primary_.node_id[static_cast<std::size_t>(corners[k])];
       }
       result.push_back(node);
     }
@@ -209,10 +213,11 @@ class ContactBuilder {
     return result;
   }
 
-  // Contact may push along a part of a normal that supports leave free. What ends together has nothing to ask for supports.
+  // Contact may push along a part of a normal that supports leave free. Cuts of sectors, and what is bonded to an obstacle, have
+  // nothing to ask for supports.
   std::vector<char> primary_prescribed()
   {
-    if (bonded() && ends_together()) return std::vector<char>(nodes_.all.size(), 1);
+    if (bonded() && (options_.cyclic || options_.obstacle)) return std::vector<char>(nodes_.all.size(), 1);
     if (options_.obstacle) return std::vector<char>(nodes_.all.size(), 0);
     return opposite_supports_.prescribed_along_normals(
         faces_, bonded() ? &OppositeSupports::prescribe : &OppositeSupports::prescribe_all);

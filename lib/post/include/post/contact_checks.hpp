@@ -32,6 +32,11 @@ std::vector<ContactMoment> contact_moments(const feti::DualProblem& problem, con
 std::vector<Warning> loose_fits(std::span<const contact::ContactNodeState> states, std::span<const contact::Pair> pairs,
                                 double modulus, double size, const Communicator& comm);
 
+/// "tied_preload": a bolt that a given force draws together by less than 1e-5 force / (`modulus` sqrt(area of the contact)): its
+/// two parts are tied otherwise, and the force does not leave the cut. `shortenings`: of each section; `areas`: of each contact.
+std::vector<Warning> tied_preloads(std::span<const constraint::PretensionSection> sections, std::span<const double> shortenings,
+                                   std::span<const double> areas, std::span<const contact::Pair> pairs, double modulus);
+
 /// "lost_moment": the moments that the two sides of a contact feel differ by more than 1 % of ContactMoment::scale. A row joins
 /// places that lie apart, and a shear force across a gap turns them: a bond over a gap, Tresca friction where it gapes, facets of
 /// curved sides that do not match. `forces`: Balance::acting.
