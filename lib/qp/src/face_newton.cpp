@@ -27,7 +27,6 @@ constexpr double recycled_bytes = 3e8;  // on each rank,
 constexpr double more_bytes = 1e9;      // or up to so much,
 constexpr double few_recycled = 60;     // so many,
 constexpr double least_kept = 10;       // in any case
-constexpr double least_size = 0.01;  // of ||A||^1/2 ||x||_A: where b asks for nearly nothing, ||P b|| is no measure of residuals
 
 }  // namespace
 
@@ -227,8 +226,7 @@ Solution FaceNewton::solution_of(Run run) const
   result.hessian_norm = norm_;
   result.preconditionings = preconditionings_;
   result.radii = set.radii();
-  const double work = std::max(z.dot(g) + z.dot(right.b), 0.0);  // z'A z
-  result.projected_gradient = run.residual / std::max(run.size, least_size * std::sqrt(norm_ * work));
+  result.projected_gradient = run.residual / size_of_residuals(run);
   result.equality = equality.size() > 0 ? equality.norm(right.e - equality.apply(z)) * norm_ / run.size : 0.0;
   return std::move(result);
 }

@@ -13,6 +13,8 @@ namespace mortise::qp {
 namespace {
 
 constexpr int max_active_sets = 200;
+constexpr double least_size = 0.01;           // of ||A||^1/2 ||x||_A: where b asks for nearly nothing, ||P b|| measures nothing
+constexpr int stands_still = 5;               // active sets without a better residual after which that counts
 constexpr int patience = 20;                  // active sets without a better residual after which it gives up
 constexpr int update_patience = 10;           // the same where slip bounds move, for then there is another way
 constexpr int max_safeguards = 12;            // after which another algorithm will do better
@@ -82,7 +84,7 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
   if (goal.allowed_error && result.error <= nothing && goal.energy_norm(z, result.nu) <= 10 * nothing) return true;
   // Infinite while points stick whose bounds are still to come.
   if (run.first_error == 0 && std::isfinite(result.error)) run.first_error = result.error;
-  const bool small = worst <= (goal.allowed_error ? tolerances::finest : goal.residual) * run.size;
+  const bool small = worst <= (goal.allowed_error ? tolerances::finest : goal.residual) * run.size || is_as_asked(run);
   bool solved = small && believable(result.error, rounding_of_error(run.problem.right.b, norm_), z, result.nu, goal,
                                     worst <= tolerances::rounding * run.size);
   run.doubtful = small && !solved;
@@ -109,6 +111,22 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
   if (radii_settled(run) && is_compatible(run)) return true;
   run.doubtful = true;
   return false;
+}
+
+// What the residual of a solution is relative to: see Solution::projected_gradient.
+double FaceNewton::size_of_residuals(const Run& run) const
+{
+  const double work = std::max(run.state.z.dot(run.state.g) + run.state.z.dot(run.problem.right.b), 0.0);  // z'A z
+  return std::max(run.size, least_size * std::sqrt(norm_ * work));
+}
+
+// Whether z has the residuals that were asked for, where rounding keeps them from becoming smaller.
+bool FaceNewton::is_as_asked(const Run& run) const
+{
+  if (run.goal.allowed_error || run.since_best < stands_still) return false;
+  const auto& [hessian, equality, right, set] = run.problem;
+  const double size = size_of_residuals(run), most = run.goal.residual * size;
+  return run.worst() <= most && norm_ * equality.norm(right.e - equality.apply(run.state.z)) <= most;
 }
 
 // Whether z is a direct solution with an error that does not matter, whose contact forces are known, though not the states of

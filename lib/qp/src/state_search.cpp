@@ -60,7 +60,9 @@ constexpr double end_of_path = 1e-13;            // of the first product,
 constexpr double end_of_rough_path = 1e-7;       // where guesses go on from it,
 constexpr double worth_a_guess = 0.1;            // if the residual over x is so small
 constexpr double end_of_costly_path = 1e-7;      // residual over x where guesses do not end it, and are all there is
-constexpr double settled_on_path = 1e-9;         // residual over x at which radii are those of the forces
+constexpr double settled_on_path = 1e-9;         // residual over x at which radii are those of the forces,
+constexpr double rounded_on_path = 1e-7;         // or no better,
+constexpr int in_vain = 2;                       // with so many radii in a row
 
 using Eigen::VectorXd;
 
@@ -376,7 +378,8 @@ bool StateSearch::repeat_paths()
   if (!programme_.follows()) return false;
   const bool costly = sparing_;
   start_soft();
-  double best = std::numeric_limits<double>::infinity();
+  double best = std::numeric_limits<double>::infinity(), wanted = costly ? worth_a_guess : path_near;
+  VectorXd nearest_x, nearest_nu;
   for (int since_best = 0; since_best < (costly ? patience_with_costly_radii : patience_with_radii);) {
     auto path = programme_.path_with_radii(point_.x, point_.nu);
     walk(path, costly ? end_of_rough_path : end_of_path, [&] {
@@ -389,10 +392,18 @@ bool StateSearch::repeat_paths()
     states_ = programme_.states(point_.x, point_.nu);
     point_.settled = now <= flutter;
     if (now <= settled_on_path) return true;
-    if (costly && now <= worth_a_guess && guess(look_back_at_first)) return true;
-    if (costly) point_.x = path.x(), point_.nu = path.nu();
+    if (now <= wanted) {
+      if (guess(look_back_at_first)) return true;
+      point_.x = path.x(), point_.nu = path.nu();
+      if (!costly) wanted = path_nearer * now;
+    }
     since_best = now < nearer * best ? 0 : since_best + 1;
-    best = std::min(best, now);
+    if (now < best) best = now, nearest_x = point_.x, nearest_nu = point_.nu;
+    if (best > rounded_on_path || since_best < in_vain) continue;
+    point_.x = std::move(nearest_x), point_.nu = std::move(nearest_nu);
+    point_.settled = false;
+    states_ = programme_.states(point_.x, point_.nu);
+    return true;
   }
   return false;
 }
