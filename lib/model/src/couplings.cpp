@@ -6,6 +6,7 @@
 #include "fem/loads.hpp"
 #include "model/model.hpp"
 #include "points.hpp"
+#include "sectors.hpp"
 
 namespace mortise::model {
 
@@ -16,12 +17,16 @@ constexpr double rounding_of_mean = 1e-9;  // of the largest coefficient of a me
 }  // namespace
 
 // Of a coupling's boundary: area, centre, and the inverse of its second moment of area about the centre (of a plane: about z
-// alone).
+// alone). Where sectors have the coupling's point in common, on their axis, those of the boundaries of all of them: the centre is
+// on the axis, and moves along it and turns about it alone.
 struct Model::Area {
   double size = 0;
   Point centre = Point::Zero();
   Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
-  double arm = 1;  // from the coupling's point, root mean square
+  double arm = 1;                                       // from the coupling's point, root mean square
+  Eigen::Matrix3d moves = Eigen::Matrix3d::Identity();  // projects on the directions in which it does
+
+  bool moves_along(int direction) const { return moves(direction, direction) > 0.5; }
 };
 
 Model::Area Model::area_of(const constraint::CouplingOptions& coupling, const Communicator& comm) const
@@ -45,9 +50,15 @@ Model::Area Model::area_of(const constraint::CouplingOptions& coupling, const Co
   area.size = about_point.area;
   if (!(area.size > 0)) throw Error(ExitStatus::bad_input, "the coupled boundary \"" + coupling.boundary + "\" has no area");
   area.centre = point + about_point.first / area.size;
+  const auto axis = sector_axis(deck_);
+  const bool of_all_sectors = axis && axis->has(point);
+  if (of_all_sectors) area.centre = axis->foot(area.centre);
   const Eigen::Matrix3d about_centre = moments_about(area.centre).second;
   const Eigen::Matrix3d inertia = about_centre.trace() * Eigen::Matrix3d::Identity() - about_centre;
-  if (deck_.dimension() == 3)
+  if (of_all_sectors) {
+    area.moves = axis->projector();
+    area.inverse = area.moves / axis->along.dot(inertia * axis->along);
+  } else if (deck_.dimension() == 3)
     area.inverse = inertia.inverse();
   else
     area.inverse(2, 2) = 1 / inertia(2, 2);
@@ -83,7 +94,8 @@ std::vector<constraint::Coupling> Model::couplings(const LoadState& state, const
 {
   std::vector<constraint::Coupling> result;
   for (const auto& [name, options] : deck_.couplings) {
-    constraint::Coupling coupling{name, options.kind == "rigid", place(options.point), {}, {}, area_of(options, comm).arm};
+    const auto area = area_of(options, comm);
+    constraint::Coupling coupling{name, options.kind == "rigid", place(options.point), {}, {}, area.arm};
     for (std::size_t i = 0; i < deck_.supports.size(); ++i) {
       const auto& support = deck_.supports[i];
       if (support.coupling != name || !state.acting[i]) continue;
@@ -92,6 +104,8 @@ std::vector<constraint::Coupling> Model::couplings(const LoadState& state, const
         if (support.rotation[c]) coupling.motion[3 + c] = state.support[i] * *support.rotation[c];
       }
     }
+    for (int k = 0; k < 6; ++k)
+      if (coupling.rigid && !area.moves_along(k % 3)) coupling.motion[static_cast<std::size_t>(k)] = 0;
     for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
       const auto& load = deck_.loads[i];
       if (load.coupling != name) continue;
@@ -153,7 +167,7 @@ std::vector<constraint::MeanMotion> Model::mean_motions(const std::vector<constr
     if (!comm.root()) continue;
     const Point offset = coupling.point - area.centre;
     for (int k = 0; k < 6; ++k) {
-      if (!coupling.motion[static_cast<std::size_t>(k)]) continue;
+      if (!coupling.motion[static_cast<std::size_t>(k)] || !area.moves_along(k % 3)) continue;
       const double length = k < 3 ? 1 : coupling.arm;  // so that every row is a length
       constraint::MeanMotion row{static_cast<int>(i), k, length * *coupling.motion[static_cast<std::size_t>(k)], {}};
       // The mean motion is linear in u: its gradient is what a unit force or moment at the point spreads over the boundary.
@@ -200,7 +214,7 @@ std::vector<std::array<double, 6>> Model::motions_of_points(const std::vector<Ei
     }
     comm.sum_in_place(sums);
     const Point turn = area.inverse * Point(sums[3], sums[4], sums[5]);
-    const Point mean = Point(sums[0], sums[1], sums[2]) / area.size + turn.cross(place(options.point) - area.centre);
+    const Point mean = area.moves * Point(sums[0], sums[1], sums[2]) / area.size + turn.cross(place(options.point) - area.centre);
     result.push_back({mean[0], mean[1], mean[2], turn[0], turn[1], turn[2]});
   }
   return result;

@@ -5,6 +5,7 @@
 
 #include "deck/description.hpp"
 #include "deck_checks.hpp"
+#include "sectors.hpp"
 #include "model/patterns.hpp"
 #include "parts.hpp"
 
@@ -147,6 +148,7 @@ Deck read_deck(deck::Document& document, const std::string& output)
   check_vectors(deck, document);
   check_couplings(deck, document);
   check_axes(deck, document);
+  check_sectors(deck, document);
   check_formulas_of_rings(deck, document);
   check_contacts(as_written(deck), deck.kinematics, document);
   check_steps(deck, document);
