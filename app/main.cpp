@@ -39,7 +39,7 @@ analysis::Outcome solve_load_steps(const model::Model& model, const post::Probes
     try {
       const auto* record = restart.find(approach, acts.time);  // of a run that this one resumes
       state = record ? solver.take_up(acts, std::move(state), *record) : solver.solve(acts, std::move(state), steps.observer());
-      if (steps.gave_up(solver, *state)) return {{}, approach.next, solver.applications()};
+      if (steps.gave_up(solver, *state)) return solver.given_up(*state);
       steps.write(solver, *state, probes, analysis::evaluate(assembly, solver, *state, probes, context));
     } catch (...) {
       return steps.failed(solver);

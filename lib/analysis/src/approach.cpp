@@ -124,6 +124,7 @@ ExitStatus try_approaches(const model::Deck& deck, const partition::Decompositio
     const auto outcome = attempt(as_cut, approach);
     if (outcome.status) return *outcome.status;
     approach.spent = outcome.spent;
+    approach.contact = outcome.contact;
     approach.smaller = outcome.next == Kind::smaller_subdomains;
   }
   if (approach.smaller) {
@@ -138,12 +139,13 @@ ExitStatus try_approaches(const model::Deck& deck, const partition::Decompositio
     const auto outcome = attempt(smaller, approach);
     if (outcome.status) return *outcome.status;
     approach.spent = outcome.spent;
+    approach.contact = outcome.contact;
   }
   const auto& cut = approach.smaller ? smaller : as_cut;
   if (approach.kind != Kind::products_to_the_end) {
     if (approach.kind != Kind::direct_instead)
       log.line("  {} products with F, and no end near: a direct solution instead, with every body whole", approach.spent);
-    approach = {Kind::direct_instead, "direct", {}, approach.spent, Kind::direct_instead, approach.smaller};
+    approach = {Kind::direct_instead, "direct", {}, approach.spent, Kind::direct_instead, approach.smaller, approach.contact};
     const auto outcome = attempt_directly(attempt, partition::whole_bodies(cut, comm), approach, comm);
     if (outcome.status) return *outcome.status;
     log.end_progress();

@@ -29,7 +29,7 @@ constexpr double part_to_balance = 1e-3;
 // The solution of one problem as a start for another one of the same assembly, where other components are prescribed.
 qp::Solution carry_solution(const feti::DualProblem& from, const qp::Solution& solution, const feti::DualProblem& to)
 {
-  const Eigen::VectorXd before = from.forces(solution.x), gaps_before = from.gaps(solution.gradient, solution.nu);
+  const Eigen::VectorXd before = from.forces(solution.x);
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(to.jump().rows()->getNodeNumElements()));
   Eigen::VectorXd gaps = forces;
   const auto &old_ranges = from.jump().ranges(), &ranges = to.jump().ranges();
@@ -41,21 +41,7 @@ qp::Solution carry_solution(const feti::DualProblem& from, const qp::Solution& s
   for (std::size_t i = 0; i < now.prescribed.size(); ++i)
     if (const auto found = prescribed.find({now.prescribed[i].node, now.prescribed[i].component}); found != prescribed.end())
       forces[ranges.dirichlet + static_cast<Local>(i)] = before[found->second];
-  const auto points = index(old.contacts);
-  for (const auto& [key, i] : index(now.contacts)) {
-    const auto found = points.find(key);
-    if (found == points.end()) continue;
-    const Local first = from.node_rows()[found->second].normal, row = to.node_rows()[i].normal;
-    const auto carry = [&](const Eigen::VectorXd& values_before, Eigen::VectorXd& values) {
-      values[row] = values_before[first];
-      change_tangents(
-          old.contacts.nodes[found->second], now.contacts.nodes[i],
-          [&](std::size_t t) { return values_before[first + 1 + static_cast<Local>(t)]; },
-          [&](std::size_t t, double value) { values[row + 1 + static_cast<Local>(t)] = value; });
-    };
-    carry(before, forces);
-    carry(gaps_before, gaps);
-  }
+  CarriedContact(from, solution).put(to, forces, gaps);
   Eigen::VectorXd nu = Eigen::VectorXd::Zero(to.equality().size());
   const auto common = std::min<Eigen::Index>({nu.size(), solution.nu.size(), from.kernel_dimension(), to.kernel_dimension()});
   nu.head(common) = solution.nu.head(common);
@@ -197,6 +183,7 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
 {
   const auto& comm = context_.comm;
   const auto& model = assembly_.model();
+  first_ = false;
   std::vector<Eigen::VectorXd> load;
   {
     const auto scope = context_.timers.scope("assembly");
@@ -271,7 +258,10 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
   };
   auto patience = before ? before->patience : approach_.patience;
   std::optional<qp::Solution> start;
-  if (before) start = before->solved.solution;
+  if (before)
+    start = before->solved.solution;
+  else if (approach_.contact)
+    solver_->suggest(approach_.contact->states_for(*problem_));
   auto found = solver_->solve(start, accuracy, count_on, patience);
   if (found.gave_up) return {rows_, symmetric_, std::move(found), {}, {}, patience, magnitudes};
   if (approach_.kind == Approach::Kind::direct_instead)
@@ -293,6 +283,15 @@ StepState LoadStepSolver::take_up(const model::LoadState& acts, std::optional<St
   auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
   auto shortenings = problem_->shortenings(found.solution.nu);
   return {rows_, symmetric_, std::move(found), std::move(displacement), std::move(shortenings), patience, magnitudes};
+}
+
+Outcome LoadStepSolver::given_up(const StepState& state) const
+{
+  Outcome outcome{.status = {}, .next = approach_.next, .spent = applications()};
+  if (first_)
+    outcome.contact =
+        std::make_shared<const CarriedContact>(CarriedContact(*problem_, state.solved.solution).of_all_ranks(context_.comm));
+  return outcome;
 }
 
 post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const post::Probes& probes,

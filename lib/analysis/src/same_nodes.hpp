@@ -2,14 +2,11 @@
 #pragma once
 
 #include <map>
-#include <tuple>
 
+#include "analysis/carried_contact.hpp"
 #include "constraint/constraints.hpp"
 
 namespace mortise::analysis {
-
-/// By what does not change: contact, node, and its place among the points of that node.
-using NodeKey = std::tuple<int, Global, int>;
 
 /// Where each point stands among `contacts.nodes`.
 inline std::map<NodeKey, std::size_t> index(const constraint::Contacts& contacts)

@@ -158,7 +158,7 @@ ExplicitProblem::Point ExplicitProblem::solve(const Vector& linear, Eigen::Vecto
   collectively(comm, [&] {
     if (!comm.root()) return;
     qp::CondensedNewton::Point from;
-    if (near) from = {map(start), near->nu, true, 0, map(felt)};
+    if (near) from = {map(start), near->nu, near->converged, 0, map(felt)};
     const auto found = newton_->solve(map(reduced), e, on_root, near ? &from : nullptr);
     x.assign(found.x.begin(), found.x.end());
     nu.assign(found.nu.begin(), found.nu.end());

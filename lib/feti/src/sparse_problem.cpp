@@ -217,7 +217,7 @@ SparseProblem::Point SparseProblem::solve(const std::vector<VectorXd>& f, const 
   std::vector<long long> outcome;
   collectively(comm, [&] {
     if (!comm.root()) return;
-    const WholeProblem::Start from{as_vector(start), as_vector(felt)};
+    const WholeProblem::Start from{as_vector(start), as_vector(felt), known && near->converged};
     auto found = whole_->solve(load, as_vector(c), set_on_root, known ? &from : nullptr);
     gauges_->restore(as_vector(c), found.x, found.u);
     x.assign(found.x.begin(), found.x.end());

@@ -124,8 +124,8 @@ WholeProblem::Solution WholeProblem::solve(const VectorXd& f, const VectorXd& c,
   load -= stiffness_.selfadjointView<Eigen::Lower>() * u;
   const VectorXd gap = c - elimination_.rows() * u;
   qp::CondensedNewton::Point from;
-  if (near && last_.size() == 0)
-    from = {near->x(kept), u(free), true, 0, near->reaction(kept)};
+  if (near && (last_.size() == 0 || !near->solved))
+    from = {near->x(kept), u(free), near->solved, 0, near->reaction(kept)};
   else if (near)
     from = {near->x(kept), last_(free), true, 0, last_reaction_};
   const auto found = newton_.solve(load(free), gap(kept), elimination_.reduced(set), near ? &from : nullptr);

@@ -74,11 +74,12 @@ class WholeProblem {
     int steps = 0;             ///< linear problems solved
     bool settled = true;       ///< if it converged: no state of a constraint rests on rounding
   };
-  /// A solution of a problem before.
+  /// A solution of a problem before, or a guess at one of this.
   struct Start {
     Eigen::VectorXd x, reaction;
+    bool solved;
   };
-  /// For the load f, the bounds c and the set; `near`: to go on from, where x alone counts if this solved a problem before.
+  /// For the load f, the bounds c and the set; `near`: to go on from, where of a solution x alone counts if this found it.
   /// Throws as qp::SparseNewton.
   Solution solve(const Eigen::VectorXd& f, const Eigen::VectorXd& c, const qp::FeasibleSet& set, const Start* near = nullptr);
 

@@ -107,8 +107,10 @@ CondensedNewton::Point CondensedNewton::solve(const VectorXd& b, const VectorXd&
 {
   StateSearch search({matrices_, contact_, set.compact(), b(constrained_) - coupling_.transpose() * b(others_),
                       e - motion_.transpose() * b(others_)});
-  const bool converged =
-      near ? search.from(near->x(constrained_), near->nu, near->reaction(constrained_)) : search.from_anywhere();
+  const auto go_on = [&] {
+    return search.from(near->x(constrained_), near->nu, near->reaction(constrained_), near->converged);
+  };
+  const bool converged = near ? go_on() : search.from_anywhere();
   if (converged) search.polish();
   Point point = search.point();
   point.converged = converged;

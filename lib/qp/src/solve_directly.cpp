@@ -30,6 +30,7 @@ class DirectSolver : public Solver {
   {
   }
 
+  void suggest(Solution states) override { suggested_ = std::move(states); }
   void begin(const RightHandSide& right, std::span<const double> radii, std::optional<Solution>& start, Goal& goal,
              const Observer& observer) override
   {
@@ -82,8 +83,8 @@ class DirectSolver : public Solver {
   ActiveSetPreconditioner* preconditioner() override { return matrices_.inverse.get(); }
 
  private:
-  // From the states of the problem before, if there was one; else from anywhere with the matrices that served last, or the other
-  // ones, if there are any, where these do not tell the states of all constraints.
+  // From the states of the problem before or from those that are suggested, if there are any; else from anywhere with the
+  // matrices that served last, or the other ones, if there are any, where these do not tell the states of all constraints.
   ExplicitProgramme::Point solve_with_matrices(const Problem& problem, const std::optional<Solution>& before, const Goal& goal)
   {
     if (before && matrices_.go_on) {
@@ -91,6 +92,11 @@ class DirectSolver : public Solver {
       problem.equality.add_transpose(1, before->nu, reaction);
       const auto& right = problem.right;
       auto next = matrices_.go_on(right, right.b, right.e, problem.set, {before->x, before->nu, true, reaction});
+      if (next.converged && next.settled) return next;
+    }
+    if (const auto states = std::exchange(suggested_, {}); states && matrices_.go_on) {
+      const auto& right = problem.right;
+      auto next = matrices_.go_on(right, right.b, right.e, problem.set, {states->x, states->nu, false, states->gradient});
       if (next.converged && next.settled) return next;
     }
     auto found = matrices_.solve(problem.right, problem.set);
@@ -219,6 +225,7 @@ class DirectSolver : public Solver {
   Means means_;
   ExplicitProgramme matrices_;
   std::optional<ExplicitProgramme> others_;
+  std::optional<Solution> suggested_;              // looked at once
   std::optional<Solution> sliding_, accepted_;     // told once
   std::optional<ExplicitProgramme::Point> found_;  // by the matrices, if it can be judged
   std::unique_ptr<Solver> faces_;

@@ -40,7 +40,7 @@ CondensedNewton::Point SparseNewton::solve(const VectorXd& f, const VectorXd& c,
   StateSearch search({std::make_unique<SparseSystem>(matrices_, whole), whole, -c, -f}, patient_);
   bool converged = false;
   try {
-    converged = near ? search.from(near->x, near->nu, near->reaction) : search.from_anywhere();
+    converged = near ? search.from(near->x, near->nu, near->reaction, near->converged) : search.from_anywhere();
   } catch (const Error& error) {
     if (error.status() != ExitStatus::not_converged) throw;
   }

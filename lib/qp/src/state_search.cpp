@@ -23,6 +23,7 @@ constexpr int look_back_on_path = 1;
 constexpr int to_the_end = 0;
 constexpr double few_changes = 0.02;             // of all constraints, or so few,
 constexpr double handful = 8;                    // or so few in all
+constexpr double nearly_right = 0.1;             // the same of states that another way has come to
 constexpr int max_turns = 3;                     // of the slip at a point; then it sticks before it turns
 constexpr double other_loads = 1e-3;             // residual over x of a solution before
 constexpr double settled_residual = 1e-10;       // residual over x
@@ -140,7 +141,7 @@ bool StateSearch::find_sparingly()
 
 // What slipped sticks first under other loads, as points of a plastic body are elastic first: slip that would go on may lead to
 // another solution than the one that loads lead to on their way, with joints loose that are locked.
-bool StateSearch::from(const VectorXd& x, const VectorXd& nu, const VectorXd& reaction)
+bool StateSearch::from(const VectorXd& x, const VectorXd& nu, const VectorXd& reaction, bool solved)
 {
   const auto begin = [&](bool sticks) {
     point_.x = x;
@@ -150,11 +151,33 @@ bool StateSearch::from(const VectorXd& x, const VectorXd& nu, const VectorXd& re
     for (auto& kind : states_.kind)
       if (kind == ConstraintStates::Kind::slips) kind = ConstraintStates::Kind::sticks;
   };
+  if (!solved) {
+    begin(false);
+    return from_guessed_states();
+  }
   const bool same_loads = programme_.residual(x, nu) <= other_loads * programme_.size(x);
   begin(!same_loads);
   if (guess(look_back_at_first)) return true;
   begin(same_loads);
   return guess(look_back_at_first);
+}
+
+// Guesses from states that another way has come to. If the first changes many of them, that way knew nothing.
+bool StateSearch::from_guessed_states()
+{
+  std::vector<int> turns(states_.kind.size(), 0);
+  try {
+    programme_.solve(states_, point_.x, point_.nu);
+    ++point_.steps;
+    auto next = programme_.states(point_.x, point_.nu);
+    const int changes = compare(states_, next, turns);
+    states_ = std::move(next);
+    return changes <= nearly_right * static_cast<double>(states_.closed.size() + states_.kind.size()) &&
+           guess(look_back_at_first);
+  } catch (const Error& error) {
+    if (error.status() != ExitStatus::not_converged) throw;
+    return false;
+  }
 }
 
 void StateSearch::polish()

@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,7 @@
 namespace mortise::analysis {
 
 class Assembly;
+class CarriedContact;
 
 /// One way to solve all load steps, on a decomposition of its own.
 struct Approach {
@@ -31,6 +33,8 @@ struct Approach {
   int spent = 0;                           ///< products with F so far, those of earlier approaches included
   Kind next = Kind::direct_instead;        ///< what is tried after giving up
   bool smaller = false;                    ///< large subdomains have been cut into small pieces
+  /// Where products gave up in the first state: how they left contact, of all ranks, for a direct solution to begin with.
+  std::shared_ptr<const CarriedContact> contact = {};
 };
 
 /// The approach with its patience: with `auto` as many products as a direct solution costs, or few where subdomains are several
@@ -45,6 +49,7 @@ struct Outcome {
   Approach::Kind next = Approach::Kind::direct_instead;  ///< this one where products gave up
   int spent = 0;                                         ///< products with F so far, those of earlier approaches included
   std::exception_ptr error = {};                         ///< what it threw, if it failed in a way that another one may not
+  std::shared_ptr<const CarriedContact> contact = {};    ///< see Approach
 };
 
 /// To be called where an exception is handled that an approach threw after so many products with F, those of earlier approaches

@@ -36,6 +36,8 @@ class DualSolver {
   /// Error(no_equilibrium) that names the body that moves and how. Collective.
   feti::DualSolution solve(const std::optional<qp::Solution>& before, const qp::Goal& accuracy, const Observer& observer,
                            std::optional<qp::Patience> patience = {});
+  /// The next solve may begin with states of constraints that these forces and this gradient have, see qp::Solver.
+  void suggest(qp::Solution states) { algorithm_->suggest(std::move(states)); }
   /// Products with F of all solves, also of one that threw.
   int applications() const { return hessian_.count(); }
 

@@ -6,6 +6,7 @@
 
 #include "analysis/approach.hpp"
 #include "analysis/assembly.hpp"
+#include "analysis/carried_contact.hpp"
 #include "analysis/dual_solver.hpp"
 #include "analysis/restart.hpp"
 #include "analysis/rows.hpp"
@@ -70,6 +71,9 @@ class LoadStepSolver {
   /// The same without solving: takes the solution from the record of an earlier run. Throws as solution_of(). Collective.
   StepState take_up(const model::LoadState& acts, std::optional<StepState> before, const Record& record);
 
+  /// What comes of a state in which products gave up, the last one. Collective.
+  Outcome given_up(const StepState& state) const;
+
   /// The dual problem of the last state; replaced by another one when rows change.
   const feti::DualProblem& problem() const { return *problem_; }
   /// Products with F of all load steps and of the earlier approaches, also of a load step that threw.
@@ -95,6 +99,7 @@ class LoadStepSolver {
   std::shared_ptr<const SymmetricNodes> symmetric_;
   std::unique_ptr<feti::DualProblem> problem_;
   std::optional<DualSolver> solver_;  // refers to the problem
+  bool first_ = true;                 // no state has been solved yet
   int before_ = 0;                    // products of the solvers and approaches before this one
 };
 

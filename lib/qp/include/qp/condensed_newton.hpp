@@ -43,8 +43,8 @@ class CondensedNewton {
     bool slides = false;
     bool settled = true;  ///< if it converged: with states that the next guess left as they are, not by rounding alone
   };
-  /// For the linear term b and the right-hand side e. `near`: the solution of a problem before, with its reaction, from whose
-  /// states guesses go on; nothing else is tried then.
+  /// For the linear term b and the right-hand side e. `near`: the solution of a problem before, if it converged, or a guess at this
+  /// one's, with its reaction, from whose states guesses go on; nothing else is tried then.
   Point solve(const Eigen::VectorXd& b, const Eigen::VectorXd& e, const FeasibleSet& set, const Point* near = nullptr) const;
   /// Whether rows depend on each other, and so A has been given a little compliance more.
   bool separated() const { return separated_; }

@@ -23,7 +23,7 @@ struct ExplicitProgramme {
   struct Point {
     Vector x;
     Eigen::VectorXd nu;
-    bool converged = false;  ///< exact to rounding; else the last guess
+    bool converged = false;  ///< exact to rounding; else the last guess, or one to begin with
     /// A x - b + G'nu by the matrix, zero where there is no constraint; there if go_on() can start from it.
     std::optional<Vector> reaction = {};
     bool settled = true;  ///< if it converged: no state of a constraint rests on rounding
@@ -32,8 +32,9 @@ struct ExplicitProgramme {
   std::shared_ptr<ActiveSetPreconditioner> inverse;  ///< A^-1
   /// Solves in a set over the programme's unknowns; radii of discs with a coefficient follow their normal unknown. Collective.
   std::function<Point(const RightHandSide& right, const FeasibleSet& set)> solve;
-  /// The same for b and e that differ from those of `right`, from the states of constraints at `near`, the solution of a problem
-  /// before; nothing else is tried. Empty if it cannot. Collective.
+  /// The same for b and e that differ from those of `right`, from the states of constraints at `near`: the solution of a problem
+  /// before, if it converged, or states of this one that may be nearly right. Nothing else is tried. Empty if it cannot.
+  /// Collective.
   std::function<Point(const RightHandSide& right, const Vector& b, const Eigen::VectorXd& e, const FeasibleSet& set,
                       const Point& near)>
       go_on = {};
@@ -59,6 +60,9 @@ class Solver {
  public:
   virtual ~Solver() = default;
 
+  /// What another way that gave up knows: x and the gradient by which constraints have their states. A solver that has use for
+  /// such looks at them in the next begin().
+  virtual void suggest(Solution /*states*/) {}
   /// Before the first of several solves that belong together (a load step), the last of them to `goal`: if the solver knows a
   /// better start than `start` it replaces that, and tells the goal how exact it is. Collective.
   virtual void begin(const RightHandSide& /*right*/, std::span<const double> /*radii*/, std::optional<Solution>& /*start*/,
