@@ -244,7 +244,7 @@ void describe(deck::Description<BodyOptions>& d)
       "`count` a row of copies, each moved once more than the one before. The list says where all copies are: the body as it "
       "lies "
       "in the mesh is none of them unless a motion leaves it there. Copy i of \"roller\" is the body roller.i with boundaries "
-      "roller.i.NAME; NAME alone means those of all copies.",
+      "roller.i.NAME, of a boundary roller.NAME or roller_NAME as well; NAME alone means those of all copies.",
       [](BodyOptions& body, const YAML::Node& node, const std::string& path, deck::Document& document,
          const deck::Limits& limits) {
         const auto before = document.error_count();

@@ -63,7 +63,10 @@ void add_reactions(const model::Deck& deck, const post::Results& results, io::St
     const auto& support = deck.supports[s];
     if (!support.coupling.empty()) continue;
     summary.reactions.push_back({support.boundary, results.reactions[s].force, {}, support.name});
-    if (!deck.axisymmetric()) summary.reactions.back().moment = moment_of(deck, results.reactions[s]);
+    if (deck.axisymmetric())
+      summary.reactions.back().force[0] = 0;  // all round it cancels
+    else
+      summary.reactions.back().moment = moment_of(deck, results.reactions[s]);
   }
 }
 
