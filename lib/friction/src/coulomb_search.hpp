@@ -58,7 +58,7 @@ class CoulombSearch {
   // A Tresca problem's last radii, and those that its solution asks for; maybe none on this rank.
   bool any_answer_ = false;
   std::vector<double> answered_, answer_;
-  double response_ = 1;  // how much of a change of bounds the normal forces answer with; 1: unknown
+  std::optional<double> response_;  // how much of a change of bounds the normal forces answer with, if it is known
 };
 
 }  // namespace mortise::friction

@@ -55,10 +55,10 @@ void refuse_if_short(const feti::DualProblem& problem, const qp::FeasibleSet& se
 }  // namespace
 
 void refuse_if_far(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws, const Vector& x,
-                   double response)
+                   const std::optional<double>& response)
 {
   constexpr double little = 0.3;  // of an answer
-  refuse_if_short(problem, set, laws, x, response < little ? 2e-3 : 0.05);
+  refuse_if_short(problem, set, laws, x, response && *response < little ? 2e-3 : 0.05);
 }
 
 void refuse_if_sliding(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws,

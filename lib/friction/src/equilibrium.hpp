@@ -1,6 +1,8 @@
 // Whether forces within the law of friction balance the loads at all. Each `set` is Omega with the law's coefficients.
 #pragma once
 
+#include <optional>
+
 #include "feti/no_equilibrium.hpp"
 #include "friction/law.hpp"
 #include "qp/projection.hpp"
@@ -16,9 +18,9 @@ void judge_by_law(const feti::DualProblem& problem, const qp::FeasibleSet& set, 
 
 /// Where forces within the law balance the loads, but those that the bodies' stiffness asks for never do: throws as
 /// feti::no_equilibrium() if those at x fall short by more than 5 %, or where the normal forces hardly answer to the bounds by
-/// more than 0.2 %: `response` is the part of a change of bounds that their answer changes by. Collective.
+/// more than 0.2 %: `response` is the part of a change of bounds that their answer changes by, if it is known. Collective.
 void refuse_if_far(const feti::DualProblem& problem, const qp::FeasibleSet& set, const std::vector<Law>& laws, const Vector& x,
-                   double response);
+                   const std::optional<double>& response);
 
 /// Throws as feti::no_equilibrium() if bodies slide on for ever with the forces x (qp::Solution::slides), whose normal forces
 /// slip changes no more, and friction falls short by more than a ten-thousandth. Collective.

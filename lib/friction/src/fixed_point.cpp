@@ -17,11 +17,11 @@ namespace {
 constexpr double worth_a_look = 0.05;  // change of the slip bounds at which the allowed error is asked for
 
 // All changes that are to come over the next one, if each is so much of the one before; `response`: see CoulombSearch.
-double to_come(double response)
+double to_come(const std::optional<double>& response)
 {
   constexpr double most = 100;
-  if (response == 1) return 1;  // unknown
-  return response < 1 ? std::min(1 / (1 - response), most) : most;
+  if (!response) return 1;
+  return *response < 1 ? std::min(1 / (1 - *response), most) : most;
 }
 
 }  // namespace

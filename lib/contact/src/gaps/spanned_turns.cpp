@@ -1,17 +1,13 @@
 #include "gaps/spanned_turns.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
+
+#include "surface/angle.hpp"
 
 namespace mortise::contact {
 
 namespace {
-
-double angle_between(const Point& a, const Point& b)
-{
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 double turn_of(const Side& side, const SurfaceNodes& surface_nodes, std::size_t facet)
 {

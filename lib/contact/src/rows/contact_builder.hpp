@@ -185,7 +185,7 @@ class ContactBuilder {
     for (std::size_t p = 0; p < nodes_.all.size(); ++p) {
       const bool met = ends_together() || rays_.meets(p);
       if (!ends_together()) known.met.push_back(met);
-      known.seam_ends.push_back(discretization_->seams_end_at_contacts() && belongs_to_others(p, met));
+      known.left_to_others.push_back(discretization_->seams_end_at_contacts() && belongs_to_others(p, met));
     }
     return known;
   }

@@ -207,7 +207,7 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
   };
   const auto left_out = [&](std::size_t p) {
     return one_node[faces.surface_node(p)] || (!nodes.directions[p].free_normal && !needed(p)) ||
-           (bond && bond->seam_ends[faces.surface_node(p)]);
+           (bond && bond->left_to_others[faces.surface_node(p)]);
   };
   nodes.stranded = at_all_nodes_of_a_face(
       faces, count, [&](std::size_t p) { return left_out(p) || (!bond && !nodes.directions[p].free_normal); },

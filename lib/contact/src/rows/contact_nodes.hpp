@@ -25,11 +25,10 @@ struct ContactNodes {
 
 /// What a bond knows of each surface node besides.
 struct BondedNodes {
-  /// The seam ends there at a contact: both sides of the seam have rows of that contact, each of which says what the other and
-  /// the seam say: pressures that nothing shares out. As the mortar method does where multipliers meet, the seam has none there.
-  /// Not past the border of the primary side, where multipliers stand inside, at places that the contact knows nothing of.
-  /// Or another bond covers more of what is round the node, or as much and comes first.
-  std::vector<char> seam_ends;
+  /// The rows of others say what its own would say; as the mortar method does where multipliers meet, the bond has none there.
+  /// Either a contact ends there on both sides of the bond: not past the border of the primary side, where multipliers stand
+  /// inside, at places that the contact knows nothing of. Or the node belongs to another bond, see bond_owners.hpp.
+  std::vector<char> left_to_others;
   /// The primary side lies opposite. Nodes past its border leave their multipliers to the others of their faces: with their own
   /// the bond would hold whole faces, and be as wide as those. Unless what is left holds no whole face there, as on a strip with
   /// a single row of nodes. Empty where sides end together, as cuts of sectors do.

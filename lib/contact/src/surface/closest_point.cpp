@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "surface/angle.hpp"
+
 namespace mortise::contact {
 
 namespace {
@@ -14,11 +16,6 @@ double along_line(const Point& x, const Point& a, const Point& b)
 {
   const double square = (b - a).squaredNorm();
   return square > 0 ? std::clamp((x - a).dot(b - a) / square, 0.0, 1.0) : 0.0;
-}
-
-double angle_between(const Point& a, const Point& b)
-{
-  return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 }  // namespace
