@@ -1,6 +1,7 @@
 #include "gaps/spanned_turns.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "surface/angle.hpp"
