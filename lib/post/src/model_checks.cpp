@@ -262,11 +262,12 @@ std::vector<Warning> uneven_clearances(std::span<const contact::InitialGap> gaps
 
 std::vector<Warning> coarse_arcs(std::span<const contact::InitialGap> gaps, std::span<const contact::Options> contacts)
 {
-  constexpr double degree = std::numbers::pi / 180, limit = 28, touching = 0.5;
+  constexpr double degree = std::numbers::pi / 180, limit_touching = 28, limit_apart = 20, touching = 0.5;
   std::vector<Warning> result;
   for (std::size_t c = 0; c < gaps.size(); ++c) {
     const auto& gap = gaps[c];
     const bool touches = gap.near_area > touching * gap.area, stands_off = gap.smallest > gap.touching;
+    const double limit = stands_off ? limit_apart : limit_touching;
     if (!(gap.turn > limit * degree) || !(touches || stands_off)) continue;
     Warning warning{
         "coarse_arc",

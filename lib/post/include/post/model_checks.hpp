@@ -58,9 +58,9 @@ std::vector<Warning> unasked_overlaps(std::span<const contact::InitialGap> gaps,
 /// above.
 std::vector<Warning> uneven_clearances(std::span<const contact::InitialGap> gaps, std::span<const contact::Options> contacts);
 
-/// "coarse_arc": one face of a contact that touches over more than half of its area, or nowhere but might, spans more than 28
-/// degrees of a round surface, as of a circle of twelve faces, or is a flat on one: what it stands back by between its nodes is not
-/// seen. As above.
+/// "coarse_arc": one face of a contact that touches over more than half of its area spans more than 28 degrees of a round surface,
+/// as of a circle of twelve faces, or is a flat on one; or more than 20 where the contact touches nowhere, but would on flats:
+/// what such a face stands back by between its nodes is not seen. As above.
 std::vector<Warning> coarse_arcs(std::span<const contact::InitialGap> gaps, std::span<const contact::Options> contacts);
 
 /// "bonded_gap": a bonded contact whose sides touch nowhere, with gaps above a fiftieth of the longest secondary face, or touch
