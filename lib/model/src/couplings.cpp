@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,6 +15,8 @@ namespace mortise::model {
 namespace {
 
 constexpr double rounding_of_mean = 1e-9;  // of the largest coefficient of a mean motion: smaller ones are none
+constexpr double beside_axis = 1e-3;       // of a boundary's distance: a point that is nearer to the axis of sectors lies on it
+constexpr double across_axis = 1e-9;       // of a load or a motion
 
 }  // namespace
 
@@ -21,6 +25,7 @@ constexpr double rounding_of_mean = 1e-9;  // of the largest coefficient of a me
 // on the axis, and moves along it and turns about it alone.
 struct Model::Area {
   double size = 0;
+  Point point = Point::Zero();  // the coupling's
   Point centre = Point::Zero();
   Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
   double arm = 1;                                       // from the coupling's point, root mean square
@@ -45,14 +50,18 @@ Model::Area Model::area_of(const constraint::CouplingOptions& coupling, const Co
     return sum;
   };
   Area area;
-  const Point point = place(coupling.point);
-  const auto about_point = moments_about(point);
+  area.point = place(coupling.point);
+  const auto about_point = moments_about(area.point);
   area.size = about_point.area;
   if (!(area.size > 0)) throw Error(ExitStatus::bad_input, "the coupled boundary \"" + coupling.boundary + "\" has no area");
-  area.centre = point + about_point.first / area.size;
+  area.centre = area.point + about_point.first / area.size;
   const auto axis = sector_axis(deck_);
-  const bool of_all_sectors = axis && axis->has(point);
-  if (of_all_sectors) area.centre = axis->foot(area.centre);
+  const double near = beside_axis * std::sqrt(about_point.second.trace() / area.size);
+  const bool of_all_sectors = axis && (axis->has(area.point) || (area.point - axis->foot(area.point)).norm() < near);
+  if (of_all_sectors) {
+    area.point = axis->foot(area.point);
+    area.centre = axis->foot(area.centre);
+  }
   const Eigen::Matrix3d about_centre = moments_about(area.centre).second;
   const Eigen::Matrix3d inertia = about_centre.trace() * Eigen::Matrix3d::Identity() - about_centre;
   if (of_all_sectors) {
@@ -62,7 +71,7 @@ Model::Area Model::area_of(const constraint::CouplingOptions& coupling, const Co
     area.inverse = inertia.inverse();
   else
     area.inverse(2, 2) = 1 / inertia(2, 2);
-  area.arm = std::sqrt(about_centre.trace() / area.size + (area.centre - point).squaredNorm());
+  area.arm = std::sqrt(about_centre.trace() / area.size + (area.centre - area.point).squaredNorm());
   return area;
 }
 
@@ -95,7 +104,7 @@ std::vector<constraint::Coupling> Model::couplings(const LoadState& state, const
   std::vector<constraint::Coupling> result;
   for (const auto& [name, options] : deck_.couplings) {
     const auto area = area_of(options, comm);
-    constraint::Coupling coupling{name, options.kind == "rigid", place(options.point), {}, {}, area.arm};
+    constraint::Coupling coupling{name, options.kind == "rigid", area.point, {}, {}, area.arm};
     for (std::size_t i = 0; i < deck_.supports.size(); ++i) {
       const auto& support = deck_.supports[i];
       if (support.coupling != name || !state.acting[i]) continue;
@@ -104,8 +113,6 @@ std::vector<constraint::Coupling> Model::couplings(const LoadState& state, const
         if (support.rotation[c]) coupling.motion[3 + c] = state.support[i] * *support.rotation[c];
       }
     }
-    for (int k = 0; k < 6; ++k)
-      if (coupling.rigid && !area.moves_along(k % 3)) coupling.motion[static_cast<std::size_t>(k)] = 0;
     for (std::size_t i = 0; i < deck_.loads.size(); ++i) {
       const auto& load = deck_.loads[i];
       if (load.coupling != name) continue;
@@ -115,9 +122,36 @@ std::vector<constraint::Coupling> Model::couplings(const LoadState& state, const
         coupling.load[3 + c] += state.load[i] * moment[static_cast<int>(c)];
       }
     }
+    keep_along(area, coupling);
     result.push_back(std::move(coupling));
   }
   return result;
+}
+
+// Of a point on the axis of sectors, which may stand a little beside it in the deck.
+void Model::keep_along(const Area& area, constraint::Coupling& coupling)
+{
+  if (area.moves.cwiseAbs().maxCoeff() < 1 - across_axis)
+    throw Error(
+        ExitStatus::bad_input,
+        fmt::format("coupling \"{}\": its point is on the axis of the sectors; turn the model until that is along x, y or z",
+                    coupling.name));
+  for (const auto part : {0, 3}) {
+    Point load, motion = Point::Zero();
+    for (int c = 0; c < 3; ++c) {
+      const auto k = static_cast<std::size_t>(part + c);
+      load[c] = coupling.load[k];
+      motion[c] = coupling.motion[k].value_or(0);
+      if (coupling.rigid && !area.moves_along(c)) coupling.motion[k] = 0;
+    }
+    for (const Point& v : {load, motion})
+      if ((v - area.moves * v).norm() > across_axis * v.norm())
+        throw Error(
+            ExitStatus::bad_input,
+            fmt::format("coupling \"{}\": its point is on the axis of the sectors, and what acts or moves across that axis "
+                        "would turn with them and cancel; load and move it along the axis, or model the whole",
+                        coupling.name));
+  }
 }
 
 std::vector<mesh::Surface> Model::coupling_surfaces() const
@@ -214,7 +248,7 @@ std::vector<std::array<double, 6>> Model::motions_of_points(const std::vector<Ei
     }
     comm.sum_in_place(sums);
     const Point turn = area.inverse * Point(sums[3], sums[4], sums[5]);
-    const Point mean = area.moves * Point(sums[0], sums[1], sums[2]) / area.size + turn.cross(place(options.point) - area.centre);
+    const Point mean = area.moves * Point(sums[0], sums[1], sums[2]) / area.size + turn.cross(area.point - area.centre);
     result.push_back({mean[0], mean[1], mean[2], turn[0], turn[1], turn[2]});
   }
   return result;

@@ -11,7 +11,7 @@ namespace mortise::model {
 
 namespace {
 
-constexpr double on_axis = 1e-9;     // of coordinates
+constexpr double off_axis = 1e-5;    // of coordinates
 constexpr double along_axis = 1e-9;  // of a vector: its part across
 
 bool is_across(const SectorAxis& axis, const Point& v)
@@ -60,15 +60,19 @@ class Checks {
     return found != deck_.couplings.end() && axis_.has(place(found->second.point));
   }
 
+  bool any_on_axis(const std::vector<deck::Place>& points) const
+  {
+    return std::any_of(points.begin(), points.end(),
+                       [&](const deck::Place& p) { return p.name.empty() && axis_.has(place(p.at)); });
+  }
+
   void check_load(const fem::LoadOptions& load, const std::string& path)
   {
     if (load.acceleration && is_across(axis_, place(*load.acceleration))) refuse(path + "acceleration", "an acceleration");
     if (load.centrifugal && (is_across(axis_, place(load.centrifugal->axis)) || !axis_.has(place(load.centrifugal->point))))
       document_.error(path + "centrifugal", fmt::format("the model is one of equal sectors about {} along {}; expected that axis",
                                                         spell(axis_.at), spell(axis_.along)));
-    const bool at_point =
-        std::any_of(load.points.begin(), load.points.end(), [&](const deck::Place& p) { return axis_.has(place(p.at)); });
-    if (!at_point && !on_axis(load.coupling)) return;
+    if (!any_on_axis(load.points) && !on_axis(load.coupling)) return;
     const auto along_model = [&](const std::array<double, 3>& v) -> Point {
       const auto axes = deck_.axes.find(load.axes);
       if (axes == deck_.axes.end() || axes->second.axis) return place(v);
@@ -80,14 +84,15 @@ class Checks {
 
   void check_support(const constraint::SupportOptions& support, const std::string& path)
   {
-    if (!on_axis(support.coupling)) return;
+    const bool at_point = support.axes.empty() && any_on_axis(support.points);
+    if (!at_point && !on_axis(support.coupling)) return;
     for (int c = 0; c < 3; ++c) {
       const auto i = static_cast<std::size_t>(c);
       if (!is_across(axis_, Point::Unit(c))) continue;
       const auto& moved = support.displacement[i];
       if (moved && !(moved->is_constant() && moved->constant() == 0))
-        refuse(path + "displacement." + "xyz"[c], "a displacement of its point");
-      if (support.rotation[i].value_or(0) != 0) refuse(path + "rotation." + "xyz"[c], "a turn of its point");
+        refuse(path + "displacement." + "xyz"[c], "a displacement of a point on it");
+      if (support.rotation[i].value_or(0) != 0) refuse(path + "rotation." + "xyz"[c], "a turn of a point on it");
     }
   }
 
@@ -100,7 +105,7 @@ class Checks {
 
 bool SectorAxis::has(const Point& x) const
 {
-  return (x - foot(x)).norm() <= on_axis * (x.norm() + at.norm());
+  return (x - foot(x)).norm() <= off_axis * (x.norm() + at.norm());
 }
 
 std::optional<SectorAxis> sector_axis(const Deck& deck)

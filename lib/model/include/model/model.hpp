@@ -143,6 +143,7 @@ class Model {
   void add_foundation(std::size_t support, const Communicator& comm, SpringMatrix& springs) const;
   void add_foundation_along_normals(std::size_t support, const Communicator& comm, SpringMatrix& springs) const;
   Area area_of(const constraint::CouplingOptions& coupling, const Communicator& comm) const;
+  static void keep_along(const Area& area, constraint::Coupling& coupling);
   void require_formulations(deck::Document& document) const;
   void require_axis(deck::Document& document, double rounding) const;
   void require_temperatures(deck::Document& document) const;
