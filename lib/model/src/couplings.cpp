@@ -131,7 +131,8 @@ std::vector<constraint::Coupling> Model::couplings(const LoadState& state, const
 // Of a point on the axis of sectors, which may stand a little beside it in the deck.
 void Model::keep_along(const Area& area, constraint::Coupling& coupling)
 {
-  if (area.moves.cwiseAbs().maxCoeff() < 1 - across_axis)
+  const bool moved = coupling.rigid || std::ranges::any_of(coupling.motion, [](const auto& m) { return m.has_value(); });
+  if (moved && area.moves.cwiseAbs().maxCoeff() < 1 - across_axis)
     throw Error(
         ExitStatus::bad_input,
         fmt::format("coupling \"{}\": its point is on the axis of the sectors; turn the model until that is along x, y or z",

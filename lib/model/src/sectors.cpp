@@ -36,7 +36,7 @@ class Checks {
   void run()
   {
     for (const auto& [name, coupling] : deck_.couplings)
-      if (axis_.has(place(coupling.point)) && !lies_along_a_coordinate(axis_))
+      if (axis_.has(place(coupling.point)) && !lies_along_a_coordinate(axis_) && (coupling.kind == "rigid" || is_held(name)))
         document_.error(
             "couplings." + name + ".point",
             "on the axis of sectors a point moves along it and turns about it, as components of motions can say of x, "
@@ -52,6 +52,11 @@ class Checks {
                     fmt::format("the model is one of equal sectors about {} along {}: {} across that axis would turn with the "
                                 "sectors, and all of them cancel; expected one along the axis, or the whole model",
                                 spell(axis_.at), spell(axis_.along), what));
+  }
+
+  bool is_held(const std::string& coupling) const
+  {
+    return std::ranges::any_of(deck_.supports, [&](const auto& support) { return support.coupling == coupling; });
   }
 
   bool on_axis(const std::string& coupling) const

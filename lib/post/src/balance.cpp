@@ -90,8 +90,11 @@ std::vector<CouplingState> coupling_states(const feti::DualProblem& problem, con
   for (std::size_t i = 0; i < constraints.mean_motions.size(); ++i) {
     const auto& row = constraints.mean_motions[i];
     const auto coupling = static_cast<std::size_t>(row.coupling);
-    const double length = row.component < 3 ? 1 : constraints.couplings[coupling].arm;
-    sums[6 * coupling + static_cast<std::size_t>(row.component)] -= length * forces[means + static_cast<Local>(i)];
+    const double size = -forces[means + static_cast<Local>(i)];
+    double* const sum = &sums[6 * coupling];
+    // On the boundary of one sector a moment about their axis pushes across it as well.
+    for (const auto& entry : row.entries) sum[entry.component] += entry.coefficient * size;
+    if (row.component >= 3) sum[row.component] += constraints.couplings[coupling].arm * size;
   }
   problem.communicator().sum_in_place(sums);
   std::vector<CouplingState> result;
