@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 #include "base/dense.hpp"
 #include "body_rows.hpp"
@@ -152,7 +154,8 @@ class FreeMotionSearch {
   Eigen::MatrixXd spread(const std::vector<int>& unit) const;
   Eigen::VectorXd fixed(std::span<const constraint::SlidingSurface> sliding_surfaces) const;
   double turning(const FreeMotion& motion) const;
-  bool along_surfaces(const Eigen::MatrixXd& rows, const Eigen::VectorXd& v, const RigidMotion& motion) const;
+  bool along_surfaces(const Eigen::MatrixXd& rows, const Eigen::VectorXd& v, const RigidMotion& motion,
+                      std::span<const constraint::SlidingSurface> sliding_surfaces) const;
 
   const Bodies& bodies_;
   const BodyRows& rows_;
@@ -196,14 +199,27 @@ double FreeMotionSearch::turning(const FreeMotion& motion) const
   return result;
 }
 
-// Whether the normal rows feel no more of a motion than the angles of facets explain: a small part of the velocity there.
-bool FreeMotionSearch::along_surfaces(const Eigen::MatrixXd& rows, const Eigen::VectorXd& v, const RigidMotion& motion) const
+// Whether the normal rows feel no more of a motion than the angles of facets explain: a small part of the velocity there. Flat
+// sides have no such angles: what tilts a slender body on one is felt little, and truly.
+bool FreeMotionSearch::along_surfaces(const Eigen::MatrixXd& rows, const Eigen::VectorXd& v, const RigidMotion& motion,
+                                      std::span<const constraint::SlidingSurface> sliding_surfaces) const
 {
+  constexpr double flat = 1e-12, felt = 1e-6;
+  std::map<int, double> tilts;  // of contacts
+  for (const auto& surface : sliding_surfaces) {
+    auto& tilt = tilts[surface.contact];
+    tilt = std::max(tilt, surface.tilt_with_kinks);
+  }
   double worst = 0;
   for (std::size_t i = 0; i < contacts_.nodes.size(); ++i) {
     if (contacts_.bonded[i]) continue;
-    const double here = std::abs(rows.row(rows_.first_contact + static_cast<Local>(contacts_.nodes[i].row)).dot(v));
-    if (here > 1e-6) worst = std::max(worst, here / std::max(motion.at(contacts_.nodes[i].at).norm(), 1e-12));
+    const auto& node = contacts_.nodes[i];
+    const double here = std::abs(rows.row(rows_.first_contact + static_cast<Local>(node.row)).dot(v));
+    if (!(here > felt)) continue;
+    const auto tilt = tilts.find(node.contact);
+    const bool is_flat = tilt != tilts.end() && tilt->second < flat;
+    worst =
+        is_flat ? std::numeric_limits<double>::infinity() : std::max(worst, here / std::max(motion.at(node.at).norm(), 1e-12));
   }
   return comm_.max(worst) <= 3 * nearly;
 }
@@ -262,7 +278,7 @@ void FreeMotionSearch::find(const std::vector<int>& unit, std::span<const constr
   for (const auto& amplitude : unfelt(rows_of_rest, nearly, comm_)) {
     const Eigen::VectorXd v = rest * amplitude;
     const double worst = largest(rows * v, comm_);
-    if (along_surfaces(rows, v, motion_of(unit, v)) && worst <= 3 * nearly) add(v, worst, false);
+    if (along_surfaces(rows, v, motion_of(unit, v), sliding_surfaces) && worst <= 3 * nearly) add(v, worst, false);
   }
 }
 
