@@ -15,6 +15,7 @@ namespace {
 constexpr int max_active_sets = 200;
 constexpr double least_size = 0.01;           // of ||A||^1/2 ||x||_A: where b asks for nearly nothing, ||P b|| measures nothing
 constexpr int stands_still = 5;               // active sets without a better residual after which that counts
+constexpr double rounding_of_balance = 1e-9;  // what projections may lack of G x = e then
 constexpr int patience = 20;                  // active sets without a better residual after which it gives up
 constexpr int update_patience = 10;           // the same where slip bounds move, for then there is another way
 constexpr int max_safeguards = 12;            // after which another algorithm will do better
@@ -125,8 +126,9 @@ bool FaceNewton::is_as_asked(const Run& run) const
 {
   if (run.goal.allowed_error || run.since_best < stands_still) return false;
   const auto& [hessian, equality, right, set] = run.problem;
-  const double size = size_of_residuals(run), most = run.goal.residual * size;
-  return run.worst() <= most && norm_ * equality.norm(right.e - equality.apply(run.state.z)) <= most;
+  const double size = size_of_residuals(run), asked = run.goal.residual;
+  const double lacking = norm_ * equality.norm(right.e - equality.apply(run.state.z));
+  return run.worst() <= asked * size && lacking <= std::max(asked, rounding_of_balance) * size;
 }
 
 // Whether z is a direct solution with an error that does not matter, whose contact forces are known, though not the states of
