@@ -201,13 +201,13 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
   // Past the primary side's border those of a bond stay only where the others do not hold what is covered.
   std::vector<char> others_hold;
   if (bond && !bond->met.empty()) others_hold = held_past_the_border(secondary, faces, bond->met, nodes, whole, dimension);
+  const auto left_to_others = [&](std::size_t p) { return bond && bond->left_to_others[faces.surface_node(p)]; };
   const auto needed = [&](std::size_t place) {
     const auto p = faces.surface_node(place);
-    return !primary_prescribed[p] && (others_hold.empty() || !others_hold[p]);
+    return !primary_prescribed[p] && (others_hold.empty() || !others_hold[p]) && !left_to_others(place);
   };
   const auto left_out = [&](std::size_t p) {
-    return one_node[faces.surface_node(p)] || (!nodes.directions[p].free_normal && !needed(p)) ||
-           (bond && bond->left_to_others[faces.surface_node(p)]);
+    return one_node[faces.surface_node(p)] || (!nodes.directions[p].free_normal && !needed(p)) || left_to_others(p);
   };
   nodes.stranded = at_all_nodes_of_a_face(
       faces, count, [&](std::size_t p) { return left_out(p) || (!bond && !nodes.directions[p].free_normal); },
