@@ -33,6 +33,7 @@ constexpr double stalled = 0.5;                  // of the residual before: what
 constexpr double rounded_residual = 1e-6;        // over x, which is no more than this, or than so many times
 constexpr double roundings = 1e4;                // what rounding makes of W x,
 constexpr int idle = 8;                          // and so many guesses have not brought fewer changes
+constexpr int solved_again = 3;                  // guesses that solve the problem, whatever states the next one takes
 constexpr double same_step = 1e-6;               // of motions that go on for ever
 constexpr double way_out = 0.05;                 // of the slip, that a motion may open contact by and still be a slide
 constexpr double residual_of_soft = 0.1;         // over x: what a soft contact is good for, it gives states to begin with
@@ -239,7 +240,7 @@ bool StateSearch::guess(int look_back)
   const double few = std::max(few_changes * static_cast<double>(states_.closed.size() + states_.kind.size()), handful);
   int guesses = look_back > 0 || programme_.softness() > 0 ? max_guesses : max_last_guesses;
   const int most = std::min(max_single_guesses, affordable_guesses());
-  int fewest = INT_MAX, fewest_at = 0;
+  int fewest = INT_MAX, fewest_at = 0, solutions = 0;
   double before = 0, least = 0;
   VectorXd best_x, best_nu, last_step;
   unbounded_ = false;
@@ -267,7 +268,9 @@ bool StateSearch::guess(int look_back)
     const bool rounded = stands && residual <= roundings * programme_.rounding(point_.x, point_.nu);
     const bool small = residual <= settled_residual * size || (stands && residual <= rounded_residual * size) || rounded;
     // Where no force is left, as of a joint that is loosened, states are rounding, and change for ever.
-    const bool turns_on_rounding = residual <= flutter * size || (rounded && step - fewest_at >= idle);
+    solutions += residual <= settled_residual * size ? 1 : 0;
+    const bool turns_on_rounding =
+        residual <= flutter * size || (rounded && step - fewest_at >= idle) || solutions >= solved_again;
     point_.settled = residual <= flutter * size || (changes == 0 && (rounded || residual <= settled_residual * size));
     if (residual < least || step == 0) {
       least = residual;
