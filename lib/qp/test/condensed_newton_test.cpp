@@ -42,6 +42,29 @@ TEST(CondensedNewton, TrescaDiscsAtEverySeed)
   }
 }
 
+// States that another way has come to: if they are right it takes a guess or two, if they are not it is given up.
+TEST(CondensedNewton, FromGuessedStates)
+{
+  for (int seed = 1; seed <= 20; ++seed) {
+    const auto p = random_programme(seed, 20, 2, 10, 2);
+    const auto newton = p.condensed();
+    const auto solution = newton.solve(p.b, p.e, p.set);
+    ASSERT_TRUE(solution.converged) << seed;
+    auto guess = solution;
+    guess.converged = false;
+    guess.nu.setZero();
+    const auto again = newton.solve(p.b, p.e, p.set, &guess);
+    EXPECT_TRUE(again.converged) << seed;
+    EXPECT_LE(again.steps, 6) << seed;
+    EXPECT_LT((again.x - solution.x).norm(), 1e-8 * solution.x.norm()) << seed;
+    guess.x.setZero();
+    guess.reaction.setConstant(1);  // open everywhere
+    const auto wrong = newton.solve(p.b, p.e, p.set, &guess);
+    EXPECT_FALSE(wrong.converged) << seed;
+    EXPECT_EQ(wrong.steps, 1) << seed;
+  }
+}
+
 // Discs of radius 0 pin, those of an infinite one do nothing, and centres are where they are.
 TEST(CondensedNewton, DiscsOfEveryRadiusAndCentre)
 {
