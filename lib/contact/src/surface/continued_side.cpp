@@ -15,10 +15,10 @@ namespace {
 struct SymmetryPlane {
   Point normal;
   double offset;
-  std::vector<FacetEdge> border;  // edges that may lie in it, or ends of a curve,
-  std::vector<GoesOn> said;       // and what their nodes say
-  std::vector<char> has;
-  std::vector<std::size_t> images;  // facets of the whole
+  std::vector<FacetEdge> border = {};  // edges that may lie in it, or ends of a curve,
+  std::vector<GoesOn> said;            // and what their nodes say
+  std::vector<char> has = {};
+  std::vector<std::size_t> images = {};  // facets of the whole
 
   double height(const Point& x) const { return normal.dot(x) - offset; }
 };
