@@ -1,0 +1,216 @@
+// Guesses at the states of constraints, one after the other.
+#include <algorithm>
+#include <climits>
+#include <cmath>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/interruption.hpp"
+#include "state_search.hpp"
+
+namespace mortise::qp {
+
+namespace {
+
+constexpr int max_guesses = 15;        // at one softness, and so many
+constexpr int max_last_guesses = 60;   // once it is none: forces that hardly count settle late;
+constexpr int idle_before_single = 4;  // guesses that have not brought fewer changes: from then on one place changes at a time,
+constexpr int idle_single = 30;        // for so many more,
+constexpr int max_single_guesses = 300;
+constexpr double few_changes = 0.02;       // of all constraints, or so few,
+constexpr double handful = 8;              // or so few in all
+constexpr double nearly_right = 0.1;       // the same of states that another way has come to
+constexpr int max_turns = 3;               // of the slip at a point; then it sticks before it turns
+constexpr double other_loads = 1e-3;       // residual over x of a solution before
+constexpr int most_polishing = 4;          // guesses more, as long as they make the residual smaller
+constexpr double stalled = 0.5;            // of the residual before: what rounding has left of it,
+constexpr double rounded_residual = 1e-6;  // over x, which is no more than this, or than so many times
+constexpr double roundings = 1e4;          // what rounding makes of W x,
+constexpr int idle = 8;                    // and so many guesses have not brought fewer changes
+constexpr int solved_again = 3;            // guesses that solve the problem, whatever states the next one takes
+constexpr double same_step = 1e-6;         // of motions that go on for ever
+constexpr double way_out = 0.05;           // of the slip, that a motion may open contact by and still be a slide
+constexpr double residual_of_soft = 0.1;   // over x: what a soft contact is good for, it gives states to begin with
+constexpr double worse = 3;                // times the residual before: such a step is shortened,
+constexpr int halvings = 6;                // so often at most
+
+using Eigen::VectorXd;
+
+// How many constraints are taken for something else; slip that turns for the fourth time sticks first.
+int compare(const ConstraintStates& before, ConstraintStates& now, std::vector<int>& turns)
+{
+  using Kind = ConstraintStates::Kind;
+  int changes = 0;
+  for (std::size_t i = 0; i < now.closed.size(); ++i) changes += now.closed[i] != before.closed[i];
+  for (std::size_t d = 0; d < now.kind.size(); ++d) {
+    const bool turned =
+        now.kind[d] == Kind::slips && before.kind[d] == Kind::slips && now.slip[d].direction.dot(before.slip[d].direction) < 0;
+    if (turned && ++turns[d] > max_turns) now.kind[d] = Kind::sticks;
+    changes += turned || now.kind[d] != before.kind[d];
+  }
+  return changes;
+}
+
+}  // namespace
+
+// What slipped sticks first under other loads, as points of a plastic body are elastic first: slip that would go on may lead to
+// another solution than the one that loads lead to on their way, with joints loose that are locked.
+bool StateSearch::from(const VectorXd& x, const VectorXd& nu, const VectorXd& reaction, bool solved)
+{
+  const auto begin = [&](bool sticks) {
+    point_.x = x;
+    point_.nu = nu;
+    states_ = programme_.states_at(x, reaction);
+    if (!sticks) return;
+    for (auto& kind : states_.kind)
+      if (kind == ConstraintStates::Kind::slips) kind = ConstraintStates::Kind::sticks;
+  };
+  if (!solved) {
+    begin(false);
+    return from_guessed_states();
+  }
+  const bool same_loads = programme_.residual(x, nu) <= other_loads * programme_.size(x);
+  begin(!same_loads);
+  if (guess(look_back_at_first)) return true;
+  begin(same_loads);
+  return guess(look_back_at_first);
+}
+
+// Guesses from states that another way has come to. If the first changes many of them, that way knew nothing.
+bool StateSearch::from_guessed_states()
+{
+  std::vector<int> turns(states_.kind.size(), 0);
+  try {
+    programme_.solve(states_, point_.x, point_.nu);
+    ++point_.steps;
+    auto next = programme_.states(point_.x, point_.nu);
+    const int changes = compare(states_, next, turns);
+    states_ = std::move(next);
+    return changes <= nearly_right * static_cast<double>(states_.closed.size() + states_.kind.size()) &&
+           guess(look_back_at_first);
+  } catch (const Error& error) {
+    if (error.status() != ExitStatus::not_converged) throw;
+    return false;
+  }
+}
+
+// Guesses from `states_` on; false if they do not converge. Those that something else comes after end sooner: if in `look_back`
+// of them changes have not become half as many. So do those of bodies that run away: no state changes any more, and each solution
+// leads as far from the last one as this from the one before, as weak springs allow. Where no force answers there is no solution
+// [Pazy, Israel J. Math. 9 (1971), of monotone problems]. Steps between soft contacts that make the residual larger are
+// shortened: where friction passes forces on, whole ones take turns for ever. So they may without softness where few states are
+// left to settle: then the last of the places that would change does so alone, which ends where W is a P-matrix [Murty, Linear
+// Algebra Appl. 9 (1974)], until there are fewer changes than ever [Judice and Pires, Comput. Oper. Res. 21 (1994)].
+bool StateSearch::guess(int look_back)
+{
+  std::vector<int> turns(states_.kind.size(), 0), history;
+  const double few = std::max(few_changes * static_cast<double>(states_.closed.size() + states_.kind.size()), handful);
+  int guesses = look_back > 0 || programme_.softness() > 0 ? max_guesses : max_last_guesses;
+  const int most = std::min(max_single_guesses, affordable_guesses());
+  int fewest = INT_MAX, fewest_at = 0, solutions = 0;
+  double before = 0, least = 0;
+  VectorXd best_x, best_nu, last_step;
+  unbounded_ = false;
+  for (int step = 0; step < guesses; ++step) {
+    stop_if_requested();
+    const VectorXd x_before = point_.x, nu_before = point_.nu;
+    programme_.solve(states_, point_.x, point_.nu);
+    ++point_.steps;
+    double residual = programme_.residual(point_.x, point_.nu);
+    if (step > 0 && programme_.softness() > 0 && residual > worse * before) {
+      shorten(x_before, nu_before);
+      residual = programme_.residual(point_.x, point_.nu);
+    }
+    const double size = programme_.size(point_.x);
+    if (!std::isfinite(residual) && sparing_) return false;
+    auto next = programme_.states(point_.x, point_.nu);
+    const int changes = compare(states_, next, turns);
+    if (changes < fewest) fewest = changes, fewest_at = step;
+    const bool single = look_back == to_the_end && programme_.softness() == 0 && changes > 1 && changes <= few &&
+                        step - fewest_at >= idle_before_single;
+    if (single) programme_.keep_one_change(states_, next);
+    if (single && step + 1 == guesses && step - fewest_at < idle_single && guesses < most) ++guesses;
+    states_ = std::move(next);
+    const bool stands = residual > stalled * before;
+    const bool rounded = stands && residual <= roundings * programme_.rounding(point_.x, point_.nu);
+    const bool small = residual <= settled_residual * size || (stands && residual <= rounded_residual * size) || rounded;
+    // Where no force is left, as of a joint that is loosened, states are rounding, and change for ever.
+    solutions += residual <= settled_residual * size ? 1 : 0;
+    const bool turns_on_rounding =
+        residual <= flutter * size || (rounded && step - fewest_at >= idle) || solutions >= solved_again;
+    point_.settled = residual <= flutter * size || (changes == 0 && (rounded || residual <= settled_residual * size));
+    if (residual < least || step == 0) {
+      least = residual;
+      best_x = point_.x, best_nu = point_.nu;
+    }
+    if (step > 0 && small && (changes == 0 || turns_on_rounding)) {
+      if (!point_.settled) point_.x = std::move(best_x), point_.nu = std::move(best_nu);
+      return true;
+    }
+    if (changes == 0 && residual <= settled_residual * size) return true;
+    if (programme_.softness() > 0 && changes <= few && residual <= residual_of_soft * size) return true;
+    VectorXd nu_step = point_.nu - nu_before;
+    if (changes == 0 && !small && is_unbounded(nu_step, last_step)) {
+      unbounded_ = true;
+      last_step_ = std::move(nu_step);
+      return false;
+    }
+    last_step = std::move(nu_step);
+    history.push_back(changes);
+    if (look_back > 0 && step >= look_back && changes > few &&
+        2 * changes > history[history.size() - 1 - static_cast<std::size_t>(look_back)])
+      return false;  // taking turns
+    before = residual;
+  }
+  return false;
+}
+
+// Back towards the x and nu before, as long as that makes the residual smaller.
+void StateSearch::shorten(const VectorXd& x_before, const VectorXd& nu_before)
+{
+  const VectorXd x_step = point_.x - x_before, nu_step = point_.nu - nu_before;
+  double part = 1, least = programme_.residual(point_.x, point_.nu);
+  for (int i = 0; i < halvings; ++i) {
+    part /= 2;
+    const VectorXd x = x_before + part * x_step, nu = nu_before + part * nu_step;
+    const double residual = programme_.residual(x, nu);
+    if (!(residual < least)) return;
+    least = residual;
+    point_.x = x, point_.nu = nu;
+  }
+}
+
+// Whether motions go on by the same step for ever while forces stay what they are, and friction resists that.
+bool StateSearch::is_unbounded(const VectorXd& step, const VectorXd& last_step) const
+{
+  return last_step.size() == step.size() && (step - last_step).norm() <= same_step * step.norm() &&
+         programme_.friction_power(point_.x, step) > 0;
+}
+
+// Whether bodies have run away in the last guesses and slide along contact without softness, rather than leave it: then there is
+// nothing else to look for. What leaves may still be held by forces that are locked in.
+bool StateSearch::slides()
+{
+  point_.slides =
+      unbounded_ && programme_.softness() == 0 && programme_.opening(last_step_) <= way_out * programme_.slip(last_step_);
+  return point_.slides;
+}
+
+void StateSearch::polish()
+{
+  for (int step = 0; step < most_polishing; ++step) {
+    const double before = off();
+    if (before <= flutter) return;
+    const VectorXd x = point_.x, nu = point_.nu;
+    programme_.solve(states_, point_.x, point_.nu);
+    if (off() <= before) {
+      states_ = programme_.states(point_.x, point_.nu);
+      continue;
+    }
+    point_.x = x;
+    point_.nu = nu;
+    return;
+  }
+}
+
+}  // namespace mortise::qp
