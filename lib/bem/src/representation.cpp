@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <optional>
 
 #include "bem/surface_stress.hpp"
 #include "panel_potentials.hpp"
@@ -97,7 +96,7 @@ struct Representation<3>::Sum {
 };
 
 Representation<3>::Representation(const Panels& panels, const fem::Material& material, double accuracy)
-    : panels_(panels), material_(material), recovery_(panels, material)
+    : panels_(panels), material_(material)
 {
   for (std::size_t r = 0; r < rules; ++r)
     largest_[r] = std::min(largest_ratio, std::pow(accuracy / field_rule_errors[r].factor, 1.0 / field_rule_errors[r].power));
@@ -294,20 +293,19 @@ void Representation<3>::add_near(const Block& block, const Fields& rest, const P
   }
 }
 
-InteriorField Representation<3>::evaluate(std::span<const Point> points, const Eigen::VectorXd& u, const Eigen::VectorXd& t) const
+InteriorField Representation<3>::evaluate(std::span<const Point> points, const Eigen::VectorXd& u, const Eigen::VectorXd& t,
+                                          std::span<const LinearStress> recovered) const
 {
   const double nu = material_.poisson_ratio, mu = material_.young_modulus / (2 * (1 + nu));
   const auto all = fields(u, t);
-  std::vector<std::optional<LinearStress>> recovered(panels_.points.size());
   // In x, whose nearest panel is p.
   const auto recovered_at = [&](const Point& x, std::size_t p) {
     const auto at = nearest_point(x, panels_.corner(p, 0), panels_.corner(p, 1), panels_.corner(p, 2));
     fem::Stress stress = fem::Stress::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
       const Local node = panels_.corners[p][k];
-      auto& fit = recovered[static_cast<std::size_t>(node)];
-      if (!fit) fit = recovery_.at(node, u, t);
-      stress += at[k] * (fit->constant + fit->slope * (x - panels_.corner(p, static_cast<int>(k))));
+      const auto& [constant, slope] = recovered[static_cast<std::size_t>(node)];
+      stress += at[k] * (constant + slope * (x - panels_.corner(p, static_cast<int>(k))));
     }
     return stress;
   };

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "bem/panels.hpp"
+#include "bem/representation.hpp"
 #include "bem/surface_stress.hpp"
 
 namespace mortise::bem::test {
@@ -144,6 +145,14 @@ inline Field kelvin(const fem::Material& material, const Point& origin, const Po
                    (-(3 - 4 * nu) * force * d.transpose() + along * Eigen::Matrix3d::Identity() + d * force.transpose() -
                     3 * along / (r * r) * d * d.transpose());
           }};
+}
+
+/// Inside, of displacements and tractions, with the stresses that are recovered from them.
+inline InteriorField inside(const Panels& panels, std::span<const Point> points, const Eigen::VectorXd& u,
+                            const Eigen::VectorXd& t, double accuracy = 1e-5)
+{
+  const auto recovered = recovered_stresses(panels, steel(), {u, t});
+  return Representation(panels, steel(), accuracy).evaluate(points, u, t, recovered);
 }
 
 inline double shear_modulus(const fem::Material& material)

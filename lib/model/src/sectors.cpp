@@ -12,6 +12,7 @@ namespace mortise::model {
 namespace {
 
 constexpr double off_axis = 1e-5;    // of coordinates
+constexpr double rounded = 1e-12;    // coordinates that mean 0, in any unit of length
 constexpr double along_axis = 1e-9;  // of a vector: its part across
 
 bool is_across(const SectorAxis& axis, const Point& v)
@@ -110,7 +111,7 @@ class Checks {
 
 bool SectorAxis::has(const Point& x) const
 {
-  return (x - foot(x)).norm() <= off_axis * (x.norm() + at.norm());
+  return (x - foot(x)).norm() <= std::max(rounded, off_axis * (x.norm() + at.norm()));
 }
 
 std::optional<SectorAxis> sector_axis(const Deck& deck)

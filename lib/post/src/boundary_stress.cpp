@@ -5,6 +5,7 @@
 #include <map>
 
 #include "bem/plane_state.hpp"
+#include "bem/representation.hpp"
 #include "bem/steklov_poincare.hpp"
 #include "bem/stress_recovery.hpp"
 #include "bem/surface_stress.hpp"
@@ -33,7 +34,7 @@ Eigen::VectorXd traction_errors(const bem::PlanePanels& panels, const fem::Mater
 {
   const bem::StressRecovery recovery(panels, material);
   std::vector<fem::Stress> fit;
-  for (Local n = 0; n < panels.node_count(); ++n) fit.push_back(recovery.at(n, u, t).constant);
+  for (Local n = 0; n < panels.node_count(); ++n) fit.push_back(recovery.at(n, {u, t}).constant);
   Eigen::VectorXd result(panels.size());
   for (std::size_t p = 0; p < panels.corners.size(); ++p) {
     const auto [a, b] = panels.corners[p];
@@ -44,23 +45,28 @@ Eigen::VectorXd traction_errors(const bem::PlanePanels& panels, const fem::Mater
   return result;
 }
 
-// Of one subdomain, from what boundary elements find, u and t of its rest.
-template <int D>
-BoundaryStress stress_of_skin(const ElasticBodies& bodies, std::size_t s, const Eigen::VectorXd& u, const Eigen::VectorXd& t)
+// What the stress that `particular` has at x adds to `stress`, which is that of its rest.
+fem::Stress complete(const ElasticBodies& bodies, std::size_t s, const bem::ParticularSolution& particular, fem::Stress stress,
+                     const Point& x)
 {
-  const auto panels = bem::make_panels<D>(bodies.decomposition.subdomains[s].mesh);
+  stress += particular.stress(x);
+  if (fem::dimension(bodies.kinematics) == 2)
+    stress[2] = bem::stress_across_plane(bodies.constitution[s], bodies.kinematics, stress[0] + stress[1]);
+  return stress;
+}
+
+// Of one subdomain, from what boundary elements find, u and t of its rest: all but what is recovered at the nodes.
+template <int D>
+BoundaryStress stress_of_skin(const ElasticBodies& bodies, std::size_t s, const bem::PanelsIn<D>& panels,
+                              const Eigen::VectorXd& u, const Eigen::VectorXd& t)
+{
   const auto particular = particular_solution(bodies, s);
   const auto material = material_of(bodies, s);
-  const auto complete = [&](fem::Stress stress, const Point& x) -> fem::Stress {
-    stress += particular.stress(x);
-    if (D == 2) stress[2] = bem::stress_across_plane(bodies.constitution[s], bodies.kinematics, stress[0] + stress[1]);
-    return stress;
-  };
   BoundaryStress own;
   own.stress = bem::panel_stresses(panels, material, u, t);
   for (std::size_t p = 0; p < panels.corners.size(); ++p) {
     const auto row = static_cast<Eigen::Index>(p);
-    own.stress.row(row) = complete(own.stress.row(row).transpose(), panels.middle(p)).transpose();
+    own.stress.row(row) = complete(bodies, s, particular, own.stress.row(row).transpose(), panels.middle(p)).transpose();
   }
   if constexpr (D == 2) {
     own.interpolation_errors = bem::interpolation_errors(panels, material, u, t);
@@ -69,15 +75,24 @@ BoundaryStress stress_of_skin(const ElasticBodies& bodies, std::size_t s, const 
   const Eigen::VectorXd traction = t + particular.traction(panels);
   own.traction = Eigen::MatrixXd::Zero(panels.size(), 3);
   own.traction.leftCols<D>() = traction.reshaped<Eigen::RowMajor>(panels.size(), D);
-  own.nodal_sums = Eigen::MatrixXd::Zero(panels.node_count(), 7 * static_cast<Eigen::Index>(bodies.blocks));
-  auto sums = own.nodal_sums.leftCols<7>();
-  sums = bem::nodal_sums(panels, material, u, t);
-  own.surface = {u, t};
-  for (Eigen::Index n = 0; n < sums.rows(); ++n) {
-    const fem::Stress rest = sums.row(n).template head<6>().transpose() / sums(n, 6);
-    sums.row(n).template head<6>() = sums(n, 6) * complete(rest, panels.points[static_cast<std::size_t>(n)]).transpose();
-  }
+  own.surface = {u, t, {}};
   return own;
+}
+
+// Nodes x 7 blocks, of the stresses of the rest at the nodes, nodes x 6.
+template <int D>
+Eigen::MatrixXd nodal_sums(const ElasticBodies& bodies, std::size_t s, const bem::PanelsIn<D>& panels,
+                           const Eigen::MatrixXd& rest)
+{
+  const auto particular = particular_solution(bodies, s);
+  const Eigen::VectorXd area = bem::nodal_areas(panels);
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(panels.node_count(), 7 * static_cast<Eigen::Index>(bodies.blocks));
+  for (Eigen::Index n = 0; n < rest.rows(); ++n) {
+    const auto& x = panels.points[static_cast<std::size_t>(n)];
+    sums.row(n).head<6>() = area[n] * complete(bodies, s, particular, rest.row(n).transpose(), x).transpose();
+    sums(n, 6) = area[n];
+  }
+  return sums;
 }
 
 }  // namespace
@@ -89,8 +104,97 @@ bem::ParticularSolution particular_solution(const ElasticBodies& bodies, std::si
 
 namespace {
 
+// Adds up over the pieces of each body: rows of `width` values at the nodes of skins; nothing for other subdomains. Collective.
+void sum_over_pieces(const ElasticBodies& bodies, std::vector<Eigen::MatrixXd>& values, Eigen::Index width,
+                     const Communicator& comm)
+{
+  std::vector<Eigen::MatrixXd> shared;
+  for (const auto& nodes : bodies.interface.nodes)
+    shared.push_back(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(nodes.size()), width));
+  const auto each_shared_node = [&](const auto& visit) {
+    for (std::size_t s = 0; s < shared.size(); ++s)
+      for (Eigen::Index i = 0; i < shared[s].rows() && bodies.decomposition.subdomains[s].skin; ++i)
+        visit(shared[s].row(i), values[s].row(bodies.interface.nodes[s][static_cast<std::size_t>(i)]));
+  };
+  each_shared_node([](auto&& sum, auto&& own) { sum = own; });
+  partition::sum_shared(bodies.decomposition, bodies.interface, shared, comm);
+  each_shared_node([](auto&& sum, auto&& own) { own = sum; });
+}
+
+bem::LinearStress stress_round(const bem::ParticularSolution& particular, const Point& x)
+{
+  bem::LinearStress result;
+  result.constant = particular.stress(x);
+  for (int k = 0; k < 3; ++k) result.slope.col(k) = particular.stress(x + Point::Unit(k)) - result.constant;
+  return result;
+}
+
+// The force of a linear stress on a node, of whose surface `normals` is the row (bem::nodal_normals).
+Point force_of(const bem::LinearStress& stress, const Eigen::RowVectorXd& normals)
+{
+  Point result = bem::traction(stress.constant, normals.head<3>());
+  for (int k = 0; k < 3; ++k) result += bem::traction(stress.slope.col(k), normals.segment<3>(3 + 3 * k));
+  return result;
+}
+
+// What is recovered at the nodes of the pieces of bodies in space: fits to the forces on the whole body, and means over its
+// pieces. Collective.
+void recover_at_nodes(const ElasticBodies& bodies, std::vector<BoundaryStress>& stresses, const Communicator& comm)
+{
+  using Row = Eigen::Matrix<double, 1, 24>;  // a linear stress
+  const auto& subdomains = bodies.decomposition.subdomains;
+  std::vector<std::size_t> skins;
+  for (std::size_t s = 0; s < subdomains.size(); ++s)
+    if (subdomains[s].skin) skins.push_back(s);
+  if (comm.max(static_cast<long long>(skins.size())) == 0) return;
+
+  std::vector<Eigen::MatrixXd> forces(subdomains.size()), means(subdomains.size());  // forces: and normals
+  for (const std::size_t s : skins) {
+    const auto panels = bem::make_panels<3>(subdomains[s].mesh);
+    const Eigen::VectorXd force =
+        bodies.operators[s]->apply(stresses[s].surface.displacement) + particular_solution(bodies, s).nodal_forces(panels);
+    forces[s].resize(panels.node_count(), 15);
+    forces[s] << force.reshaped<Eigen::RowMajor>(panels.node_count(), 3), bem::nodal_normals(panels);
+  }
+  sum_over_pieces(bodies, forces, 15, comm);
+  for (const std::size_t s : skins) {
+    const auto panels = bem::make_panels<3>(subdomains[s].mesh);
+    const auto particular = particular_solution(bodies, s);
+    const auto& [u, t, unused] = stresses[s].surface;
+    bem::SurfaceValues values{u, t, forces[s].leftCols<3>(), forces[s].rightCols<12>()};
+    for (Eigen::Index n = 0; n < panels.node_count(); ++n)
+      values.forces.row(n) -=
+          force_of(stress_round(particular, panels.points[static_cast<std::size_t>(n)]), values.normals.row(n)).transpose();
+    const auto fits = bem::recovered_stresses(panels, material_of(bodies, s), values);
+    const Eigen::VectorXd area = bem::nodal_areas(panels);
+    means[s].resize(panels.node_count(), 25);
+    for (Eigen::Index n = 0; n < panels.node_count(); ++n) {
+      const auto at = static_cast<std::size_t>(n);
+      const auto own = stress_round(particular, panels.points[at]);
+      const Eigen::Matrix<double, 6, 3> slope = fits[at].slope + own.slope;
+      means[s].row(n) << area[n] * (fits[at].constant + own.constant).transpose(), area[n] * slope.reshaped().transpose(),
+          area[n];
+    }
+  }
+  sum_over_pieces(bodies, means, 25, comm);
+  for (const std::size_t s : skins) {
+    const auto panels = bem::make_panels<3>(subdomains[s].mesh);
+    const auto particular = particular_solution(bodies, s);
+    Eigen::MatrixXd rest(panels.node_count(), 6);
+    for (Eigen::Index n = 0; n < panels.node_count(); ++n) {
+      const auto own = stress_round(particular, panels.points[static_cast<std::size_t>(n)]);
+      const Row mean = means[s].row(n).head<24>() / means[s](n, 24);
+      const fem::Stress constant = mean.head<6>().transpose() - own.constant;
+      rest.row(n) = constant.transpose();
+      stresses[s].surface.recovered.push_back({constant, mean.tail<18>().reshaped(6, 3) - own.slope});
+    }
+    stresses[s].nodal_sums = nodal_sums(bodies, s, panels, rest);
+  }
+}
+
 template <int D>
-std::vector<BoundaryStress> stresses_of_skins(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement)
+std::vector<BoundaryStress> stresses_of_skins(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
+                                              const Communicator& comm)
 {
   const auto& subdomains = bodies.decomposition.subdomains;
   std::vector<BoundaryStress> result(subdomains.size());
@@ -114,9 +218,15 @@ std::vector<BoundaryStress> stresses_of_skins(const ElasticBodies& bodies, const
         rotate<D>(*rotation, u.col(column));
         rotate<D>(*rotation, t.col(column));
       }
-      result[s] = stress_of_skin<D>(bodies, s, u.col(column), t.col(column));
+      const auto panels = bem::make_panels<D>(subdomains[s].mesh);
+      result[s] = stress_of_skin<D>(bodies, s, panels, u.col(column), t.col(column));
+      if constexpr (D == 2) {
+        const bem::Representation<2> inside(panels, material_of(bodies, s));
+        result[s].nodal_sums = nodal_sums(bodies, s, panels, inside.evaluate(panels.points, u.col(column), t.col(column)).stress);
+      }
     }
   }
+  if (D == 3) recover_at_nodes(bodies, result, comm);
   return result;
 }
 
@@ -172,10 +282,11 @@ Eigen::VectorXd errors_of_skin(const ElasticBodies& bodies, std::size_t subdomai
 
 }  // namespace
 
-std::vector<BoundaryStress> boundary_stresses(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement)
+std::vector<BoundaryStress> boundary_stresses(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
+                                              const Communicator& comm)
 {
-  return fem::dimension(bodies.kinematics) == 2 ? stresses_of_skins<2>(bodies, displacement)
-                                                : stresses_of_skins<3>(bodies, displacement);
+  return fem::dimension(bodies.kinematics) == 2 ? stresses_of_skins<2>(bodies, displacement, comm)
+                                                : stresses_of_skins<3>(bodies, displacement, comm);
 }
 
 // Of u = e + u_p: e'S e / 2 + u_p'S e + that of u_p.

@@ -19,8 +19,9 @@ struct BoundaryStress {
 /// Of weight and temperature of a subdomain of boundary elements.
 bem::ParticularSolution particular_solution(const ElasticBodies& bodies, std::size_t subdomain);
 
-/// Of every subdomain of this rank; empty where it is made of finite elements. Copies are solved together.
-std::vector<BoundaryStress> boundary_stresses(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement);
+/// Of every subdomain of this rank; empty where it is made of finite elements. Copies are solved together. Collective.
+std::vector<BoundaryStress> boundary_stresses(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
+                                              const Communicator& comm);
 
 /// Energy of the elastic strain of a subdomain of boundary elements.
 double boundary_energy(const ElasticBodies& bodies, std::size_t subdomain, const Eigen::VectorXd& displacement);

@@ -20,7 +20,13 @@ Values represent(const ElasticBodies& bodies, const StressField& stress, std::si
   const auto& constitution = bodies.constitution[s];
   const auto panels = bem::make_panels<D>(bodies.decomposition.subdomains[s].mesh);
   const bem::Representation<D> inside(panels, bem::in_plane(constitution.materials[0], bodies.kinematics));
-  auto found = inside.evaluate(points, stress.surface[s].displacement, stress.surface[s].traction);
+  const auto& [u, t, recovered] = stress.surface[s];
+  auto found = [&] {
+    if constexpr (D == 2)
+      return inside.evaluate(points, u, t);
+    else
+      return inside.evaluate(points, u, t, recovered);
+  }();
   const auto particular = particular_solution(bodies, s);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);

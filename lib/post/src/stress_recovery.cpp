@@ -126,7 +126,7 @@ Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd
     result.strain_energy += energy;
     result.body_energy[static_cast<std::size_t>(subdomains[s].body)] += energy;
   };
-  auto boundary = boundary_stresses(bodies, displacement);
+  auto boundary = boundary_stresses(bodies, displacement, comm);
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     const auto& own = bodies.constitution[s];
     if (subdomains[s].skin) {

@@ -59,9 +59,10 @@ class Representation<3> {
   /// surface this is the limit from inside. Outside the identity does not hold and the result is no more than a continuation of
   /// the nearest panel's fields: ask locate(). Stresses in the unit of Young's modulus. As t and grad u jump between panels, the
   /// identity's stresses next to them are of first order and have a logarithm of the distance from each edge. Within a panel's
-  /// size from the surface those of the recovery at the nodes (stress_recovery.hpp) replace them little by little: on the surface
-  /// they are alone.
-  InteriorField evaluate(std::span<const Point> points, const Eigen::VectorXd& u, const Eigen::VectorXd& t) const;
+  /// size from the surface `recovered`, the stresses round the nodes (stress_recovery.hpp), replace them little by little: on the
+  /// surface they are alone.
+  InteriorField evaluate(std::span<const Point> points, const Eigen::VectorXd& u, const Eigen::VectorXd& t,
+                         std::span<const LinearStress> recovered) const;
 
  private:
   static constexpr int lanes = 4;  // panels side by side
@@ -95,7 +96,6 @@ class Representation<3> {
 
   const Panels& panels_;
   fem::Material material_;
-  StressRecovery<3> recovery_;
   std::array<double, rules> largest_;  // radius / distance of a panel for each rule
   std::vector<Block> blocks_;
   std::array<std::vector<Lane3>, rules> points_;  // of the rules: block * points + point

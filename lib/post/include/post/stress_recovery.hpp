@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "base/communicator.hpp"
+#include "bem/stress_recovery.hpp"
 #include "fem/constitution.hpp"
 #include "feti/subdomain_operator.hpp"
 #include "partition/congruence.hpp"
@@ -48,10 +49,11 @@ struct ElasticBodies {
   std::span<const std::vector<SymmetricNode>> symmetric = {};
 };
 
-/// What the inside of a subdomain of boundary elements follows from: displacements (3 n) and tractions (3 m) of its surface, less
-/// those of its particular solution.
+/// What the inside of a subdomain of boundary elements follows from, less the particular solution: displacements (D n) and
+/// tractions (D m) of its surface, in space the stresses recovered round its nodes as well.
 struct SurfaceField {
   Eigen::VectorXd displacement, traction;
+  std::vector<bem::LinearStress> recovered;
 };
 
 /// Fields of each subdomain of this rank, in the deck's unit of stress, and sums over all ranks.
