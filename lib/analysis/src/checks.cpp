@@ -273,7 +273,7 @@ std::vector<Warning> unconnected_faces(const model::Model& model, const Communic
   const auto [doubled, hanging] = model::open_seams(model, comm);
   std::vector<Warning> result;
   const auto tell = [&](const char* kind, const auto& worst, long long count, const std::string& what, const char* cure) {
-    const auto& body = bodies[static_cast<std::size_t>(worst.body)].name;
+    const auto& body = mesh::whole_of(bodies[static_cast<std::size_t>(worst.body)]);
     Warning w{kind, fmt::format("body \"{}\" has {} {}", body, count, what), cure};
     w.at = worst.at;
     w.body = body;

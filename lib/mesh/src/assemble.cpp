@@ -37,9 +37,8 @@ void warn_of_torn_bodies(const RawMesh& raw, const Groups& groups, const std::ve
       }
   for (const auto& [group, count] : torn)
     assembly.warnings.push_back(
-        fmt::format("parts of body \"{}\" share an edge or a vertex and no face ({} nodes): they are separate bodies there, "
-                    "which nothing ties; "
-                    "give them a common face, or contacts",
+        fmt::format("parts of body \"{}\" share nodes ({}), but no face of one shape: they are separate bodies there, which "
+                    "nothing ties; give them common faces, or contacts",
                     groups.names[static_cast<std::size_t>(group)], count));
 }
 
@@ -234,8 +233,8 @@ Assembly assemble(RawMesh raw, const Options& options, int dimension)
   const Groups groups = group(raw, options);
   const auto faces = sorted_faces(raw.cells);
   require_conforming(options.file, raw, faces, groups, dimension);
-  const auto part = parts_of(face_neighbours(faces, raw.cells.size()), groups,
-                             close_surfaces(raw, groups.label, options.file, dimension));
+  const auto part =
+      parts_of(face_neighbours(faces, raw.cells.size()), groups, close_surfaces(raw, groups.label, options.file, dimension));
   std::vector<Local> original;
   std::vector<int> solid_of_cell;
   Assembly assembly = separate(raw, groups, part, options, dimension, original, solid_of_cell);

@@ -37,7 +37,9 @@ Groups group(const RawMesh& raw, const Options& options)
 
 namespace {
 
-// Two cells of one body must meet with the same kind of face, and on its two sides.
+constexpr double same_place = 1e-4;  // of an edge
+
+// Two cells of one body must meet with the same kind of face, in the same nodes, and on its two sides.
 class FaceCheck {
  public:
   FaceCheck(const std::string& file, const RawMesh& raw, const Groups& groups) : file_(file), raw_(raw), groups_(groups) {}
@@ -52,6 +54,24 @@ class FaceCheck {
                      body(a), name(type(a)), name(type(b))));
   }
 
+  // Corners alone would tie the two cells at points, and they would gape between them.
+  void require_same_nodes(const CellFace& a, const CellFace& b) const
+  {
+    const auto own = nodes(a), others = nodes(b);
+    if (own == others) return;
+    const Point &x = point(a.corners[0]), &y = point(a.corners[1]);
+    const bool twice = std::ranges::all_of(own, [&](Local n) {
+      return std::ranges::any_of(others, [&](Local m) { return (point(n) - point(m)).norm() <= same_place * (x - y).norm(); });
+    });
+    fail(file_,
+         fmt::format(
+             "elements {} and {} of body \"{}\" share the corners of a face near ({:.6g}, {:.6g}, {:.6g}), but not the nodes "
+             "between them: {}",
+             tag(a), tag(b), body(a), x[0], x[1], x[2],
+             twice ? "these are twice at the same places; merge them, or join the parts before they are made of second order"
+                   : "each has others; one of the two has them in another order than the file's format asks for"));
+  }
+
   // Cells that are right side out see a common face from its two sides; where they do not, one lies folded into the other.
   void require_two_sides(const CellFace& a, const CellFace& b) const
   {
@@ -62,12 +82,11 @@ class FaceCheck {
 
   [[noreturn]] void overlap(const CellFace& a, const CellFace& b) const
   {
-    const auto& x = raw_.points[static_cast<std::size_t>(a.corners[0])];
+    const Point& x = point(a.corners[0]);
     fail(file_,
          fmt::format("elements {} and {} of body \"{}\" lie on the same side of their common face near ({:.6g}, {:.6g}, {:.6g}): "
                      "they overlap; a node there is out of place",
-                     raw_.tag[static_cast<std::size_t>(a.cell)], raw_.tag[static_cast<std::size_t>(b.cell)], body(a), x[0], x[1],
-                     x[2]));
+                     tag(a), tag(b), body(a), x[0], x[1], x[2]));
   }
 
   int group(const CellFace& face) const { return groups_.label[static_cast<std::size_t>(face.cell)]; }
@@ -81,6 +100,17 @@ class FaceCheck {
   const std::string& body(const CellFace& face) const
   {
     return groups_.names[static_cast<std::size_t>(groups_.of_cell[static_cast<std::size_t>(face.cell)])];
+  }
+  const Point& point(Local node) const { return raw_.points[static_cast<std::size_t>(node)]; }
+  std::size_t tag(const CellFace& face) const { return raw_.tag[static_cast<std::size_t>(face.cell)]; }
+  // All of them, ascending.
+  std::vector<Local> nodes(const CellFace& face) const
+  {
+    std::vector<Local> result;
+    for (const int k : shape(face).nodes)
+      result.push_back(raw_.cells[static_cast<std::size_t>(face.cell)][static_cast<std::size_t>(k)]);
+    std::ranges::sort(result);
+    return result;
   }
   // Corners in their order about the normal that points out of the cell, of a ring the one with the smallest number first.
   std::vector<Local> ring(const CellFace& face) const
@@ -110,6 +140,7 @@ void require_conforming(const std::string& file, const RawMesh& raw, std::span<c
   for (std::size_t i = 0; i + 1 < all.size(); ++i) {
     if (all[i].corners != all[i + 1].corners || check.group(all[i]) != check.group(all[i + 1])) continue;
     check.require_same_kind(all[i], all[i + 1]);
+    check.require_same_nodes(all[i], all[i + 1]);
     check.require_two_sides(all[i], all[i + 1]);
     if (i + 2 < all.size() && all[i + 2].corners == all[i].corners && check.group(all[i + 2]) == check.group(all[i]))
       check.overlap(all[i], all[i + 2]);

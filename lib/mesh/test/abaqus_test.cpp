@@ -177,6 +177,27 @@ TEST(Abaqus, CellsThatFoldIntoEachOtherAreRefused)
   EXPECT_EQ(read_text(nodes + bricks + "*ELSET, ELSET=all\n10, 20\n*SOLID SECTION, ELSET=all\n").catalogue.bodies.size(), 1U);
 }
 
+// Two triangles of second order on one edge, from its corners 2 and 3, and a node between each pair of corners.
+TEST(Abaqus, NeighboursWithOtherNodesBetweenTheirCornersAreRefused)
+{
+  const auto square = [](const char* middles) {
+    return read_text(
+        std::string("*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n4, 1, 1\n5, 0.5, 0\n6, 0.5, 0.5\n7, 0, 0.5\n8, 1, 0.5\n9, 0.5, 1\n"
+                    "10, 0.5, 0.5\n*ELEMENT, TYPE=CPE6, ELSET=all\n1, 1, 2, 3, 5, 6, 7\n2, 2, 4, 3, ") +
+            middles + "\n",
+        2);
+  };
+  EXPECT_EQ(square("8, 9, 6").catalogue.bodies.size(), 1U);
+  for (const auto& [middles, what] : {std::pair("8, 9, 10", "but not the nodes between them: these are twice"),
+                                      std::pair("6, 9, 8", "in another order than the file's format")})
+    try {
+      square(middles);
+      ADD_FAILURE() << middles;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+}
+
 // gmsh writes Abaqus' order of nodes: every node in the middle must lie amid its corners again.
 void expect_straight(const std::string& geometry, int dimension, CellType type)
 {

@@ -42,6 +42,16 @@ std::vector<DoubledNodes> doubled_nodes(const std::vector<contact::DoubledFaces>
   return result;
 }
 
+// Of each body the first one of its group or instance: parts that a mesh leaves side by side are one body to whoever meshed them.
+std::vector<int> first_parts(const mesh::Catalogue& catalogue)
+{
+  std::map<std::string, int> first;
+  std::vector<int> result;
+  for (std::size_t b = 0; b < catalogue.bodies.size(); ++b)
+    result.push_back(first.emplace(mesh::whole_of(catalogue.bodies[b]), static_cast<int>(b)).first->second);
+  return result;
+}
+
 // Faces on boundaries that supports hold, of all ranks. Collective.
 std::set<Global> supported_faces(const Model& model, const Communicator& comm)
 {
@@ -89,7 +99,9 @@ std::vector<HangingNodes> hanging_nodes(const std::vector<contact::HangingFaces>
 
 OpenSeams open_seams(const Model& model, const Communicator& comm)
 {
-  const auto skin = partition::outer_surface(model.decomposition(), comm);
+  auto skin = partition::outer_surface(model.decomposition(), comm);
+  const auto first = first_parts(model.decomposition().catalogue);
+  for (int& body : skin.body) body = first[static_cast<std::size_t>(body)];
   const auto kinematics = model.deck().kinematics;
   const auto doubled = contact::find_doubled_faces(skin, kinematics, comm);
   const auto hanging = contact::find_hanging_faces(skin, kinematics, comm);

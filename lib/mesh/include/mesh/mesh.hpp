@@ -19,6 +19,11 @@ struct Body {
   std::string group;  ///< the physical volume (2D: surface) of the file, the closed surface, or the block: the deck's name
   std::string instance = {};  ///< group.i if it belongs to the i-th instance of its group; empty if there are none
 };
+/// Its instance, or else its group: what its connected parts are parts of.
+inline const std::string& whole_of(const Body& body)
+{
+  return body.instance.empty() ? body.group : body.instance;
+}
 
 /// Nodes that have a name in the file and need be no boundary: those of a physical curve (plane models: none) or point, of an
 /// *NSET without a whole face. Of every body that has a node there.

@@ -1,0 +1,26 @@
+// A strip of two layers; each has its own line at the seam between them, from corner to corner: no cell of one has a neighbour in the other.
+Point(1) = {0, 0, 0};
+Point(2) = {4, 0, 0};
+Point(3) = {4, 0.5, 0};
+Point(4) = {0, 0.5, 0};
+Point(5) = {4, 1, 0};
+Point(6) = {0, 1, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Line(5) = {4, 3};
+Line(6) = {3, 5};
+Line(7) = {5, 6};
+Line(8) = {6, 4};
+Curve Loop(1) = {1:4};
+Curve Loop(2) = {5:8};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Transfinite Curve{1, 3} = 17;
+Transfinite Curve{5, 7} = 13;
+Transfinite Curve{2, 4, 6, 8} = 3;
+Mesh.ElementOrder = 2;
+Physical Surface("strip") = {1, 2};
+Physical Curve("wall") = {4, 8};
+Physical Curve("tip") = {2, 6};
