@@ -130,8 +130,10 @@ void check_options(const Options& contact, const std::string& path, deck::Docume
                    "only a cut through a bolt, which is bonded, can be preloaded; expected `friction: {bonded: true}` with it");
   if (!contact.automatic && !contact.obstacle && contact.secondary == contact.primary)
     document.error(
-        path, fmt::format("secondary and primary are the same boundary \"{}\"; contact of a surface with itself is not available",
-                          contact.primary));
+        path,
+        fmt::format("secondary and primary are the same boundary \"{}\"; contact of a surface with itself is not available. Of a "
+                    "boundary that two bodies share, each side is `body:boundary`",
+                    contact.primary));
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ void require_positive(const CellGeometry& cell)
     const auto n = static_cast<std::size_t>(cell.element().nodes);
     throw Error(ExitStatus::bad_input,
                 fmt::format("a cell near ({:.4g}, {:.4g}, {:.4g}) is turned inside out or too distorted (its Jacobian "
-                            "is not positive); improve the mesh there",
+                            "is not positive); improve the mesh there, or give its nodes the order of the file's format",
                             x[0], x[n], x.size() > 2 * n ? x[2 * n] : 0.0));
   }
 }

@@ -86,6 +86,10 @@ void AbaqusReader::begin(const std::string& line)
         equals == std::string::npos ? "" : trimmed(words[i].substr(equals + 1));
   }
   if (!is_ours()) return;
+  if (card_.parameters.contains("INPUT"))
+    report_error(line_, fmt::format("the lines of *{} are in the file \"{}\"; write them into this one, or let `mortise import` "
+                                    "make a deck of it",
+                                    card_.name, card_.parameters["INPUT"]));
   if (card_.name == "NODE") {
     begin_node();
   } else if (card_.name == "NSET") {
@@ -115,7 +119,7 @@ bool AbaqusReader::is_ours()
     report_error(
         line_,
         fmt::format("the card *{} is not understood: write the mesh as one flat model, all nodes and elements in this file "
-                    "with numbers of their own",
+                    "with numbers of their own, or let `mortise import` make a deck of the file",
                     card_.name));
   if (card_.name == "STEP") over_ = true;
   if (ours.contains(card_.name)) return true;

@@ -37,8 +37,8 @@ void warn_of_torn_bodies(const RawMesh& raw, const Groups& groups, const std::ve
       }
   for (const auto& [group, count] : torn)
     assembly.warnings.push_back(
-        fmt::format("parts of body \"{}\" share nodes ({}), but no face of one shape: they are separate bodies there, which "
-                    "nothing ties; give them common faces, or contacts",
+        fmt::format("parts of body \"{}\" share an edge, a vertex or the nodes of unlike faces ({} nodes): they are separate "
+                    "bodies there, which nothing ties; give them common faces, or contacts",
                     groups.names[static_cast<std::size_t>(group)], count));
 }
 

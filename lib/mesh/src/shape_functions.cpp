@@ -64,6 +64,8 @@ bool in_space(CellType type, int dimension, const Exponents& e)
   }
 }
 
+constexpr int most_nodes = 27;  // of a cell
+
 double power(double x, int exponent)
 {
   return exponent == 0 ? 1 : exponent == 1 ? x : x * x;
@@ -102,21 +104,21 @@ ShapeFunctions::ShapeFunctions(CellType type) : dimension_(dimension(type)), nod
 
 void ShapeFunctions::evaluate(const Eigen::Vector3d& at, Eigen::Ref<Eigen::VectorXd> value, Eigen::MatrixXd* gradient) const
 {
-  value.setZero();
-  if (gradient) gradient->setZero(count(), dimension_);
-  for (std::size_t m = 0; m < exponents_.size(); ++m) {
-    const auto& e = exponents_[m];
-    const auto column = coefficients_.col(static_cast<Eigen::Index>(m));
-    value += monomial(e, at) * column;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_nodes, 1> monomials(count());
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, most_nodes, 3> slopes(count(), 3);
+  for (Eigen::Index m = 0; m < monomials.size(); ++m) {
+    const auto& e = exponents_[static_cast<std::size_t>(m)];
+    monomials[m] = monomial(e, at);
     for (int c = 0; gradient && c < dimension_; ++c) {
-      double slope = 1;
+      slopes(m, c) = 1;
       for (int b = 0; b < 3; ++b) {
         const int k = e[static_cast<std::size_t>(b)];
-        slope *= b == c ? derivative(at[b], k) : power(at[b], k);
+        slopes(m, c) *= b == c ? derivative(at[b], k) : power(at[b], k);
       }
-      gradient->col(c) += slope * column;
     }
   }
+  value = coefficients_.lazyProduct(monomials);
+  if (gradient) *gradient = coefficients_.lazyProduct(slopes.leftCols(dimension_));
 }
 
 const ShapeFunctions& shape_functions(CellType type)

@@ -146,6 +146,7 @@ TEST(Abaqus, WhatIsNotUnderstoodIsRefused)
 {
   expect_error(nodes + "*INCLUDE, INPUT=other.inp\n", "model.inp:17: the card *INCLUDE is not understood");
   expect_error("*PART, NAME=p\n" + nodes, "model.inp:1: the card *PART");
+  expect_error("*NODE, INPUT=nodes.txt\n", "model.inp:1: the lines of *NODE are in the file \"nodes.txt\"");
   expect_error(nodes + "*ELEMENT, TYPE=C3D5, ELSET=e\n1, 1,2,3,4,5\n", "elements of type C3D5");
   expect_error(nodes + "*ELEMENT, TYPE=C3D8, ELSET=e\n1, 1,2,3,4,5,6,7\n", "element 1 has 7 nodes, its type needs 8");
   expect_error(nodes + "*ELEMENT, TYPE=C3D8, ELSET=e\n1, 1,2,3,4,5,6,7,99\n", "the node 99");

@@ -42,11 +42,14 @@ void check_plane_load(const Deck& deck, const fem::LoadOptions& load, const std:
     document.error(path + "acceleration", "an axisymmetric body is accelerated along its axis, y, alone; expected 0 for x");
 }
 
-void check_plane_support(const constraint::SupportOptions& support, const std::string& path, deck::Document& document)
+void check_plane_support(const Deck& deck, const constraint::SupportOptions& support, const std::string& path,
+                         deck::Document& document)
 {
   if (support.displacement[2])
     document.error(path + "displacement." + (support.cylindrical ? "axial" : "z"), "a plane model has no z component");
   check_flat(support.points, path, document);
+  if (deck.axisymmetric() && !support.points.empty() && support.stiffness.any())
+    document.error(path + "stiffness", "in an axisymmetric model a point is a ring; give a boundary a `stiffness`");
   if (support.stiffness.along[2]) document.error(path + "stiffness.z", "a plane model has no z component");
   for (const std::size_t c : {0, 1})
     if (support.rotation[c])
@@ -91,7 +94,7 @@ void check_vectors(const Deck& deck, deck::Document& document)
   for (std::size_t i = 0; i < deck.loads.size(); ++i)
     check_plane_load(deck, deck.loads[i], fmt::format("loads[{}].", i), document);
   for (std::size_t i = 0; i < deck.supports.size(); ++i)
-    check_plane_support(deck.supports[i], fmt::format("supports[{}].", i), document);
+    check_plane_support(deck, deck.supports[i], fmt::format("supports[{}].", i), document);
   for (const auto& [name, spring] : deck.springs) {
     check_flat(spring.points, "springs." + name + ".", document);
     if (deck.axisymmetric())

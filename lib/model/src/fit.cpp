@@ -138,9 +138,11 @@ void Model::require_fit(deck::Document& document, const Communicator& comm) cons
                        fmt::format("\"{}\" has no face: its boundary does not lie on that body", named[i].first));
     for (std::size_t c = 0; c < common.size(); ++c)
       if (common[c] > 0)
-        document.error(contacts_.path(c),
-                       fmt::format("\"{}\" and \"{}\" have faces in common; contact of a surface with itself is not available",
-                                   contacts_[c].secondary, contacts_[c].primary));
+        document.error(
+            contacts_.path(c),
+            fmt::format("\"{}\" and \"{}\" have faces in common; contact of a surface with itself is not available. Of a "
+                        "boundary that two bodies share, each side is `body:boundary`",
+                        contacts_[c].secondary, contacts_[c].primary));
     require_formulations(document);
     require_small_skins(decomposition_, deck_, document);
     if (deck_.axisymmetric()) require_axis(document, near);

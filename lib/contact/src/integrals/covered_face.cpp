@@ -74,7 +74,7 @@ void CoveredFace::find_corners()
   samples_.clear();
   std::vector<Sample> points;
   for (const auto& part : parts_) {
-    sample(part.polygon, Integrand::second_order, points);
+    sample(part.polygon, {.second_order = true}, points);
     samples_.insert(samples_.end(), points.begin(), points.end());
   }
 }

@@ -30,10 +30,15 @@ Polygon clip_polygon(Polygon subject, const Few<Plane, 4>& clip)
   return subject;
 }
 
-bool parallelogram(const FaceGeometry& face)
+// Of the bilinear map of a quadrilateral x = c + a s + b t + d s t, whose Jacobian in the plane is a x b + a x d s + d x b t.
+double variation_of_jacobian(const FaceGeometry& face)
 {
-  if (face.type != CellType::quad4) return true;
-  return (face.nodes[0] - face.nodes[1] + face.nodes[2] - face.nodes[3]).norm() < 1e-9 * face.size();
+  if (face.type != CellType::quad4) return 0;
+  const auto& x = face.nodes;
+  const Point d = x[0] - x[1] + x[2] - x[3];
+  if (d.norm() < 1e-9 * face.size()) return 0;
+  const Point a = x[1] + x[2] - x[0] - x[3], b = x[2] + x[3] - x[0] - x[1];
+  return (a.cross(d).norm() + d.cross(b).norm()) / a.cross(b).norm();
 }
 
 // Whether two facets lie in parallel planes, as in patch tests. Between curved surfaces exact integrals of facets are no gain.
@@ -50,8 +55,8 @@ bool parallel_planes(const FaceGeometry& a, const FaceGeometry& b)
 // Products of bilinear functions are polynomials in the plane where the faces are parallelograms.
 Integrand integrand(const FaceGeometry& secondary, const FaceGeometry& primary, bool second_order)
 {
-  const bool polynomial = (parallelogram(secondary) && parallelogram(primary)) || !parallel_planes(secondary, primary);
-  return !polynomial ? Integrand::rational : second_order ? Integrand::second_order : Integrand::first_order;
+  const double variation = std::max(variation_of_jacobian(secondary), variation_of_jacobian(primary));
+  return {second_order, parallel_planes(secondary, primary) ? variation : 0};
 }
 
 double height_at(const FaceGeometry& face, const Frame& frame, const Eigen::Vector4d& shape)

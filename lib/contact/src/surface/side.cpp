@@ -95,22 +95,26 @@ FaceShape Side::shape_in_face(std::size_t facet, const Eigen::Vector4d& shape, c
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < facets[facet].size(); ++k)
     place += shape[static_cast<Eigen::Index>(k)] * functions.nodes()[static_cast<std::size_t>(corners[facet][k])];
-  Eigen::VectorXd value(n);
+  FaceShape value(n);
   if (affine[face]) {
     functions.evaluate(place, value);
     return value;
   }
   // Newton's method in the auxiliary plane, from the place in the facet.
   const Eigen::Index d = mesh::dimension(faces.type[face]);
-  Eigen::MatrixXd gradient, plane(2, n);
+  Eigen::MatrixXd gradient;
+  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, most_functions> plane(2, n);
   for (Eigen::Index i = 0; i < n; ++i)
     plane.col(i) = frame.project(points[static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)])]);
   for (int step = 0; step < 20; ++step) {
     functions.evaluate(place, value, &gradient);
-    const Eigen::MatrixXd jacobian = (plane * gradient).topRows(d);
-    const Eigen::VectorXd change = dense::solve(jacobian, (at - plane * value).head(d));
+    Eigen::Matrix2d jacobian = Eigen::Matrix2d::Identity();
+    jacobian.topLeftCorner(d, d) = plane.topRows(d).lazyProduct(gradient);
+    Plane rest = Plane::Zero();
+    rest.head(d) = (at - plane.lazyProduct(value)).head(d);
+    const Plane change = jacobian.inverse() * rest;
     if (!(change.norm() < 1)) break;  // a face that hides behind itself; the facet's place must do
-    place.head(d) += change;
+    place.head<2>() += change;
     if (change.squaredNorm() < 1e-28) break;
   }
   functions.evaluate(place, value);
