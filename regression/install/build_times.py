@@ -28,10 +28,12 @@ def environment():
 
 
 def timed(*command):
-    """Seconds on the clock and of the processors."""
+    """Seconds on the clock and of the processors. What a command that fails has written is shown."""
     used = lambda: sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
     clock, processors = time.monotonic(), used()
-    subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL, env=environment())
+    done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment())
+    if done.returncode:
+        sys.exit(f"{done.stdout}\n{' '.join(command)}: exit {done.returncode}")
     return time.monotonic() - clock, used() - processors
 
 
@@ -53,7 +55,8 @@ def main():
         row("the program, `ninja mortise`", "ninja", "-C", build, "mortise")
         if not arguments.program:
             row("then all tests, `ninja`", "ninja", "-C", build)
-            row("the suite, `ctest -LE study`", "ctest", "--test-dir", build, "-LE", "study", "-j", str(os.cpu_count()))
+            row("the suite, `ctest -LE study`", "ctest", "--test-dir", build, "-LE", "study", "-j", str(os.cpu_count()),
+                "--output-on-failure")
     if arguments.write:
         page_tables.write(HERE / "README.md", "build", [f"on {os.cpu_count()} processors", "seconds", "CPU seconds"], rows)
 

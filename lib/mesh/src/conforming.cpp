@@ -38,6 +38,7 @@ Groups group(const RawMesh& raw, const Options& options)
 namespace {
 
 constexpr double same_place = 1e-4;  // of an edge
+constexpr double far_nearer = 0.25;  // times the distance from where a node belongs
 
 // Two cells of one body must meet with the same kind of face, in the same nodes, and on its two sides.
 class FaceCheck {
@@ -54,22 +55,27 @@ class FaceCheck {
                      body(a), name(type(a)), name(type(b))));
   }
 
-  // Corners alone would tie the two cells at points, and they would gape between them.
+  // Corners alone would tie the two cells at points, and they would gape between them. Two arcs from one corner to another are
+  // a hole, whose edges these are.
   void require_same_nodes(const CellFace& a, const CellFace& b) const
   {
+    if (first_order(type(a)) == type(a)) return;
     const auto own = nodes(a), others = nodes(b);
     if (own == others) return;
     const Point &x = point(a.corners[0]), &y = point(a.corners[1]);
     const bool twice = std::ranges::all_of(own, [&](Local n) {
       return std::ranges::any_of(others, [&](Local m) { return (point(n) - point(m)).norm() <= same_place * (x - y).norm(); });
     });
-    fail(file_,
-         fmt::format(
-             "elements {} and {} of body \"{}\" share the corners of a face near ({:.6g}, {:.6g}, {:.6g}), but not the nodes "
-             "between them: {}",
-             tag(a), tag(b), body(a), x[0], x[1], x[2],
-             twice ? "these are twice at the same places; merge them, or join the parts before they are made of second order"
-                   : "each has others; one of the two has them in another order than the file's format asks for"));
+    const auto refuse = [&](const char* cause) {
+      fail(file_,
+           fmt::format("elements {} and {} of body \"{}\" share the corners of a face near ({:.6g}, {:.6g}, {:.6g}), but not "
+                       "the nodes between them: {}",
+                       tag(a), tag(b), body(a), x[0], x[1], x[2], cause));
+    };
+    if (twice) refuse("these are twice at the same places; merge them, or join the parts before they are made of second order");
+    for (const auto* face : {&a, &b})
+      if (is_out_of_order(face->cell))
+        refuse(fmt::format("element {} has them in another order than the file's format asks for", tag(*face)).c_str());
   }
 
   // Cells that are right side out see a common face from its two sides; where they do not, one lies folded into the other.
@@ -111,6 +117,24 @@ class FaceCheck {
       result.push_back(raw_.cells[static_cast<std::size_t>(face.cell)][static_cast<std::size_t>(k)]);
     std::ranges::sort(result);
     return result;
+  }
+  // Whether a node between two corners of a cell lies amid two others.
+  bool is_out_of_order(Local cell) const
+  {
+    const auto nodes = raw_.cells[static_cast<std::size_t>(cell)];
+    const CellType type = raw_.cells.type[static_cast<std::size_t>(cell)];
+    const auto amid = [&](const auto& corners) {
+      Point sum = Point::Zero();
+      for (const int c : corners) sum += point(nodes[static_cast<std::size_t>(c)]) / static_cast<double>(corners.size());
+      return sum;
+    };
+    for (std::size_t m = 0; m < middles(type).size(); ++m) {
+      const Point& x = point(nodes[static_cast<std::size_t>(corner_count(type)) + m]);
+      const double off = (x - amid(middles(type)[m])).norm();
+      for (const auto& others : middles(type))
+        if ((x - amid(others)).norm() < far_nearer * off) return true;
+    }
+    return false;
   }
   // Corners in their order about the normal that points out of the cell, of a ring the one with the smallest number first.
   std::vector<Local> ring(const CellFace& face) const

@@ -20,7 +20,8 @@ struct Groups {
 Groups group(const RawMesh& raw, const Options& options);
 
 /// Throws Error(bad_input), which names the file and a place, where cells of one group that share the corners of a face see it as
-/// faces of different kinds or with different nodes between, or lie on the same side of it. The cells are the right way round (orient.hpp); `faces` is their sorted_faces().
+/// faces of different kinds or lie on the same side of it, or whose nodes between these come twice or in another order. The cells
+/// are the right way round (orient.hpp); `faces` is their sorted_faces().
 void require_conforming(const std::string& file, const RawMesh& raw, std::span<const CellFace> faces, const Groups& groups,
                         int dimension);
 
