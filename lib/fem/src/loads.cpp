@@ -12,15 +12,15 @@ namespace mortise::fem {
 namespace {
 
 // The rules of the faces integrate shape function times area vector exactly, warped quadrilaterals included; times its length
-// exactly on parallelograms. Calls visit(shape values, area vector of the integration point, nodes).
+// exactly on parallelograms; also times a field that is linear in space on flat faces: of tri3, whose own rule has one point,
+// that of rings. Calls visit(shape values, area vector of the integration point, nodes).
 template <class Visit>
-void for_each_point(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const Visit& visit,
-                    Kinematics rule = Kinematics::solid)
+void for_each_point(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const Visit& visit)
 {
   for (std::size_t f = 0; f < mesh.facets.cells.size(); ++f) {
     if (mesh.facets.boundary[f] != boundary) continue;
     const auto nodes = mesh.facets.cells[f];
-    const Element& face = element(mesh.facets.cells.type[f], rule);
+    const Element& face = element(mesh.facets.cells.type[f], Kinematics::axisymmetric);
     for (std::size_t q = 0; q < face.points(); ++q) {
       Eigen::Matrix<double, 3, 2> tangents = Eigen::Matrix<double, 3, 2>::Zero();  // in 2D the first alone
       double x = 0;
@@ -79,11 +79,9 @@ Moments moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, con
 
 void for_each_point_of_boundary(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const BoundaryVisitor& visit)
 {
-  // That of rings has more than one point on tri3.
-  for_each_point(
-      mesh, boundary, kinematics,
-      [&](const Eigen::VectorXd& shape, const Point& area, std::span<const Local> nodes) { visit(nodes, shape, area); },
-      Kinematics::axisymmetric);
+  for_each_point(mesh, boundary, kinematics, [&](const Eigen::VectorXd& shape, const Point& area, std::span<const Local> nodes) {
+    visit(nodes, shape, area);
+  });
 }
 
 Eigen::MatrixXd nodal_moments(const mesh::Mesh& mesh, int boundary, Kinematics kinematics, const Point& origin)

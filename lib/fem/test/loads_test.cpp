@@ -68,6 +68,21 @@ TEST(Loads, PressureAndTractionOnOneSideHaveTheirResultantAndMoment)
   }
 }
 
+// p = 5 (1 + y) on x = 1, 0 < y < 2: the moment of what varies is that of a formula, on faces of one integration point as well.
+TEST(Loads, PressuresThatVaryHaveTheirMoment)
+{
+  for (const auto& [name, kinematics] : all_cases()) {
+    Block block(name, {3, 2, 2}, {1, 2, 3});
+    const int d = block.dimension;
+    const double width = d == 3 ? 3 : 1;
+    auto f = no_load(block);
+    add_pressure(
+        block.mesh, block.boundary("xmax"), kinematics, [](const Point& x) { return 5 * (1 + x[1]); }, f);
+    EXPECT_LT((resultant(f, d) - Point(-20 * width, 0, 0)).norm(), 1e-11) << name;
+    EXPECT_LT((moment(block.mesh, f, d) - width * Point(0, d == 3 ? -30 : 0, 70.0 / 3)).norm(), 1e-11) << name;
+  }
+}
+
 // Moments about a boundary's own centre are those of the same boundary at the origin, wherever it lies.
 TEST(Loads, MomentsAboutABoundaryKeepTheirFiguresFarFromTheOrigin)
 {
