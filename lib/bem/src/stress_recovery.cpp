@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <numbers>
 
 #include "base/dense.hpp"
 #include "bem/surface_stress.hpp"
@@ -14,7 +15,8 @@ namespace {
 // wider fit. Chosen by stresses round cavities and at bores, of bodies in one piece and cut (regression/verification/inside.py).
 constexpr double weight_of_forces = 4, weight_of_tractions = 0.3, weight_of_wider_fit = 0.1;
 
-// Of degree 2 at most in D dimensions: 1, the coordinates, their products.
+// Of degree 2 at most in D dimensions: 1, the coordinates, their products, squares over the root of 2. So the sum of the squares
+// of coefficients of one degree is the same in any axes, and the solution of least coefficients.
 template <int D>
 struct Quadratic {
   static constexpr int monomials = (D + 1) * (D + 2) / 2;
@@ -28,12 +30,14 @@ struct Quadratic {
     return product == D ? std::array{0, 1} : product == D + 1 ? std::array{1, 2} : std::array{0, 2};
   }
 
+  static double factor(int product) { return product < D ? std::numbers::sqrt2 / 2 : 1; }
+
   static Monomials values(const Point& s)
   {
     Monomials result;
     result[0] = 1;
     result.template segment<D>(1) = flattened<D>(s);
-    for (int k = 0; D + 1 + k < monomials; ++k) result[D + 1 + k] = s[factors(k)[0]] * s[factors(k)[1]];
+    for (int k = 0; D + 1 + k < monomials; ++k) result[D + 1 + k] = factor(k) * s[factors(k)[0]] * s[factors(k)[1]];
     return result;
   }
 
@@ -43,8 +47,8 @@ struct Quadratic {
     for (int i = 0; i < D; ++i) result(1 + i, i) = 1;
     for (int k = 0; D + 1 + k < monomials; ++k) {
       const auto [i, j] = factors(k);
-      result(D + 1 + k, i) += s[j];
-      result(D + 1 + k, j) += s[i];
+      result(D + 1 + k, i) += factor(k) * s[j];
+      result(D + 1 + k, j) += factor(k) * s[i];
     }
     return result;
   }
@@ -135,8 +139,8 @@ typename StressRecovery<D>::Fit StressRecovery<D>::fit(Local node, const Surface
   for (int m = D + 1; m < monomials; ++m) {
     Tensor hessian = Tensor::Zero();
     const auto [i, j] = Polynomial::factors(m - D - 1);
-    hessian(i, j) += 1;
-    hessian(j, i) += 1;
+    hessian(i, j) += Polynomial::factor(m - D - 1);
+    hessian(j, i) += Polynomial::factor(m - D - 1);
     a.block<D, D>(row, D * m) = (mu * hessian.trace() * Tensor::Identity() + (lambda + mu) * hessian) / young;
   }
   row += D;

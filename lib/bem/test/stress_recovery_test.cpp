@@ -99,6 +99,30 @@ TEST(StressRecovery, PointForceOutsideIsOfSecondOrderAndBetterThanMeans)
   EXPECT_LT(fine.recovered, fine.averaged / 1.5);
 }
 
+// Any displacements, tractions and forces: stresses turn with the body.
+TEST(StressRecovery, HasNoAxesOfItsOwn)
+{
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()).toRotationMatrix();
+  const auto turned = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
+    return (turn * v.reshaped(3, v.size() / 3)).reshaped();
+  };
+  const auto still = box({3, 2, 4}, {2, 1, 1.5});
+  auto points = still.points;
+  for (auto& x : points) x = turn * x;
+  const auto moved = make_panels(std::move(points), still.corners);
+  std::srand(1);
+  const Eigen::VectorXd u = Eigen::VectorXd::Random(3 * still.node_count()), t = Eigen::VectorXd::Random(3 * still.size()),
+                        turned_u = turned(u), turned_t = turned(t);
+  const Eigen::MatrixXd forces = Eigen::MatrixXd::Random(still.node_count(), 3);
+  const auto here = recovered_stresses(still, steel(), {u, t, forces, nodal_normals(still)}),
+             there = recovered_stresses(moved, steel(), {turned_u, turned_t, forces * turn.transpose(), nodal_normals(moved)});
+  for (std::size_t n = 0; n < here.size(); ++n) {
+    const auto& s = here[n].constant;
+    const Eigen::Matrix3d tensor = (Eigen::Matrix3d() << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]).finished();
+    EXPECT_LT((components(turn * tensor * turn.transpose()) - there[n].constant).norm(), 1e-10 * s.norm()) << n;
+  }
+}
+
 // As at the sharp edges of a cut: one panel in five has a traction that is half as large again. Forces make up for it.
 TEST(StressRecovery, ForcesMakeUpForPoorTractions)
 {
