@@ -63,7 +63,7 @@ bool Report::LoadSteps::gave_up(const analysis::LoadStepSolver& solver, const an
   context_.log.end_progress();
   run_.end_stage("solve", "solve");
   if (!state.solved.gave_up) return false;
-  if (approach_.kind != analysis::Approach::Kind::direct_instead)
+  if (!approach_.takes_bodies_whole())
     run_.sizes_as_cut_ = output::sizes_of(assembly_.decomposition(), solver.problem(), context_.comm);
   return true;
 }
@@ -78,8 +78,7 @@ void Report::LoadSteps::write(const analysis::LoadStepSolver& solver, const anal
   auto summary = output::summarise(model, found, comm);
   summary.version = MORTISE_VERSION;
   summary.algorithm = approach_.algorithm == "auto" ? "face_newton" : approach_.algorithm;
-  if (approach_.kind == analysis::Approach::Kind::direct_instead && run_.sizes_as_cut_.subdomains > 0)
-    output::copy_sizes(run_.sizes_as_cut_, summary);
+  if (approach_.takes_bodies_whole() && run_.sizes_as_cut_.subdomains > 0) output::copy_sizes(run_.sizes_as_cut_, summary);
   if (first) summary.hessian_multiplications += approach_.spent;
   output::accumulate_steps(acts_, last_ ? last_->summary : io::Summary{}, summary);
   run_.warnings_.add(analysis::check_results(model, state, results, comm));

@@ -17,7 +17,10 @@ namespace {
 constexpr int products_of_check = 600;      // that a direct solution is one, or a start that A^-1 leads on from
 constexpr int products_on_large_ones = 80;  // on subdomains that are so many times as large as usual,
 constexpr int large = 4;
-constexpr int products_on_smaller_ones = 60;  // and then on smaller ones, at least
+constexpr int products_on_smaller_ones = 60;   // and then on smaller ones, at least
+constexpr double long_direct = 4;              // seconds that a direct solution may take before products with whole bodies
+constexpr int products_on_whole_bodies = 300;  // are tried, so many
+constexpr int near_on_whole_bodies = 100;      // and these more with the end in sight
 
 int usual_unknowns(const model::Deck& deck)
 {
@@ -36,6 +39,16 @@ bool has_large_subdomains(const Assembly& assembly, const Communicator& comm)
   return comm.max(largest) > large * usual_unknowns(assembly.deck());
 }
 
+// Whether some body but those of boundary elements is cut. Collective.
+bool cuts_bodies(const Assembly& assembly, const Communicator& comm)
+{
+  std::vector<double> pieces(assembly.decomposition().catalogue.bodies.size(), 0.0);
+  for (const auto& subdomain : assembly.decomposition().subdomains)
+    if (!subdomain.skin) pieces[static_cast<std::size_t>(subdomain.body)] += 1;
+  comm.sum_in_place(pieces);
+  return std::ranges::any_of(pieces, [](double count) { return count > 1; });
+}
+
 }  // namespace
 
 Outcome failed(const Approach& approach, int spent, const Communicator& comm)
@@ -44,13 +57,12 @@ Outcome failed(const Approach& approach, int spent, const Communicator& comm)
   try {
     throw;
   } catch (const Error& error) {
-    if (approach.kind == Approach::Kind::direct_instead &&
-        (error.status() == ExitStatus::bad_input || error.status() == ExitStatus::not_converged ||
-         error.cause() == Error::Cause::memory))
+    if (approach.takes_bodies_whole() && (error.status() == ExitStatus::bad_input ||
+                                          error.status() == ExitStatus::not_converged || error.cause() == Error::Cause::memory))
       return outcome;
     throw;
   } catch (const std::bad_alloc&) {  // the other ranks would know nothing of it
-    if (approach.kind == Approach::Kind::direct_instead && comm.size() == 1) return outcome;
+    if (approach.takes_bodies_whole() && comm.size() == 1) return outcome;
     throw;
   }
 }
@@ -61,8 +73,13 @@ Approach with_patience(Approach approach, const Assembly& assembly, const constr
   const auto effort = [&] { return effort_of_direct(assembly, constraints, comm); };
   if (approach.kind == Approach::Kind::direct_instead)
     approach.patience = products_of_check;
+  else if (approach.kind == Approach::Kind::whole_bodies)
+    approach.patience = qp::Patience(products_on_whole_bodies, near_on_whole_bodies);
   else if (approach.algorithm == "auto") {
-    approach.patience = patience_with_products(effort(), comm);
+    const auto of_direct = effort();
+    approach.patience = patience_with_products(of_direct, comm);
+    if (approach.patience && of_direct.seconds > long_direct && cuts_bodies(assembly, comm))
+      approach.next = Approach::Kind::whole_bodies;
     // All that comes before a direct solution together may cost as much as that, and little more. How near the end is, is known
     // where a residual tells.
     if (approach.kind == Approach::Kind::smaller_subdomains && approach.patience) {
@@ -84,8 +101,8 @@ Approach with_patience(Approach approach, const Assembly& assembly, const constr
 namespace {
 
 // Also where the attempt throws before it solves anything.
-Outcome attempt_directly(const Attempt& attempt, const partition::Decomposition& bodies, const Approach& approach,
-                         const Communicator& comm)
+Outcome attempt_without_fault(const Attempt& attempt, const partition::Decomposition& bodies, const Approach& approach,
+                              const Communicator& comm)
 {
   try {
     return attempt(bodies, approach);
@@ -125,6 +142,7 @@ ExitStatus try_approaches(const model::Deck& deck, const partition::Decompositio
     if (outcome.status) return *outcome.status;
     approach.spent = outcome.spent;
     approach.contact = outcome.contact;
+    approach.next = outcome.next;
     approach.smaller = outcome.next == Kind::smaller_subdomains;
   }
   if (approach.smaller) {
@@ -140,13 +158,22 @@ ExitStatus try_approaches(const model::Deck& deck, const partition::Decompositio
     if (outcome.status) return *outcome.status;
     approach.spent = outcome.spent;
     approach.contact = outcome.contact;
+    approach.next = outcome.next;
   }
   const auto& cut = approach.smaller ? smaller : as_cut;
   if (approach.kind != Kind::products_to_the_end) {
-    if (approach.kind != Kind::direct_instead)
-      log.line("  {} products with F, and no end near: a direct solution instead, with every body whole", approach.spent);
+    const auto bodies = partition::whole_bodies(cut, comm);
+    const auto no_end = [&](const char* next) { log.line("  {} products with F, and no end near: {}", approach.spent, next); };
+    if (approach.kind == Kind::whole_bodies || (approach.kind != Kind::direct_instead && approach.next == Kind::whole_bodies)) {
+      if (approach.kind != Kind::whole_bodies) no_end("every body is taken whole");
+      approach = {Kind::whole_bodies, asked, {}, approach.spent, Kind::direct_instead, approach.smaller, approach.contact};
+      const auto outcome = attempt_without_fault(attempt, bodies, approach, comm);
+      if (outcome.status) return *outcome.status;
+      approach.spent = outcome.spent;
+    }
+    if (approach.kind != Kind::direct_instead) no_end("a direct solution instead, with every body whole");
     approach = {Kind::direct_instead, "direct", {}, approach.spent, Kind::direct_instead, approach.smaller, approach.contact};
-    const auto outcome = attempt_directly(attempt, partition::whole_bodies(cut, comm), approach, comm);
+    const auto outcome = attempt_without_fault(attempt, bodies, approach, comm);
     if (outcome.status) return *outcome.status;
     log.end_progress();
     log.line("  the direct solution {}: back to products with F", why_it_failed(outcome, resumed.has_value()));

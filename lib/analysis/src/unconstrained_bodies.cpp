@@ -113,9 +113,8 @@ void check_unconstrained_bodies(const model::Model& model, const Rows& rows, con
   const auto& comm = context.comm;
   const auto& decomposition = model.decomposition();
   const auto& bodies = decomposition.catalogue.bodies;
-  const auto supported = model.supported(comm), touched = reached(rows.pairs, rows.constraints.contacts, bodies.size(), comm);
-  std::vector<bool> alone(bodies.size());
-  for (std::size_t b = 0; b < bodies.size(); ++b) alone[b] = !supported[b] && !touched[b];
+  std::vector<bool> alone = model.held(reached(rows.pairs, rows.constraints.contacts, bodies.size(), comm), comm);
+  alone.flip();
   if (std::none_of(alone.begin(), alone.end(), [](bool b) { return b; })) return;
 
   const auto nearest = contact::nearest_bodies(partition::outer_surface(decomposition, comm), alone, comm);

@@ -82,6 +82,30 @@ TEST_F(Approaches, CutLargeSubdomainsFirstWhereThatIsNext)
   EXPECT_EQ(smaller, (std::vector<bool>{false, true, true}));
 }
 
+// A direct solution begins with what products on the first subdomains came to.
+TEST_F(Approaches, TakeBodiesWholeBeforeADirectSolutionWhereThatIsNext)
+{
+  std::vector<Kind> tried;
+  const auto run_whole = [&](const auto& outcome_of_whole) {
+    tried.clear();
+    return run([&](const partition::Decomposition&, const Approach& approach) -> Outcome {
+      tried.push_back(approach.kind);
+      if (approach.kind == Kind::as_asked) return {.status = {}, .next = Kind::whole_bodies, .spent = 100};
+      if (approach.kind == Kind::whole_bodies) return outcome_of_whole(approach);
+      EXPECT_EQ(approach.spent, 250);
+      return {ExitStatus::solved};
+    });
+  };
+  EXPECT_EQ(run_whole([](const Approach&) -> Outcome { return {ExitStatus::solved}; }), ExitStatus::solved);
+  EXPECT_EQ(tried, (std::vector<Kind>{Kind::as_asked, Kind::whole_bodies}));
+  EXPECT_EQ(run_whole([](const Approach&) -> Outcome { return {.status = {}, .spent = 250}; }), ExitStatus::solved);
+  EXPECT_EQ(tried, (std::vector<Kind>{Kind::as_asked, Kind::whole_bodies, Kind::direct_instead}));
+  EXPECT_EQ(run_whole([&](const Approach& approach) {
+              return thrown(approach, 250, Error(ExitStatus::machine, "no room", Error::Cause::memory));
+            }),
+            ExitStatus::solved);
+}
+
 // Errors that another way does not mend end the run, wherever they come from.
 TEST_F(Approaches, EndWithErrorsThatAreNoFaultOfTheirs)
 {

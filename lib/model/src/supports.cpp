@@ -1,5 +1,7 @@
 // Supports: what they prescribe, and the nodes and surfaces that they hold.
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "model/model.hpp"
 #include "points.hpp"
@@ -91,26 +93,47 @@ std::vector<mesh::Surface> Model::surfaces_prescribed_along_normals(const LoadSt
   return surfaces;
 }
 
-std::vector<bool> Model::supported(const Communicator& comm) const
+std::vector<bool> Model::held(const std::vector<bool>& touched, const Communicator& comm) const
 {
-  std::vector<double> faces(decomposition_.catalogue.bodies.size(), 0.0);
+  const std::size_t bodies = decomposition_.catalogue.bodies.size(), couplings = deck_.couplings.size();
   const auto places = nodes_at_points(comm);
+  std::vector<double> faces((couplings + 1) * bodies, 0.0);  // of each body in each coupling; last: held by supports
+  const auto count_faces = [&](const std::string& name, std::size_t row) {
+    const auto [boundary, on_body] = select(name);
+    for (const int body : partition::boundary_surface(decomposition_, boundary, on_body).body)
+      faces[row * bodies + static_cast<std::size_t>(body)] += 1;
+  };
+  std::size_t row = 0;
+  for (const auto& [name, coupling] : deck_.couplings) count_faces(coupling.boundary, row++);
   for (std::size_t i = 0; i < deck_.supports.size(); ++i) {
     const auto& support = deck_.supports[i];
-    if (!support.points.empty()) {
-      for (const auto& found : places.supports[i])
-        if (found.subdomain >= 0 && decomposition_.rank_of(found.subdomain) == comm.rank())
-          faces[static_cast<std::size_t>(found.body)] += 1;
-      continue;
-    }
-    const auto [boundary, on_body] =
-        select(support.coupling.empty() ? support.boundary : deck_.couplings.at(support.coupling).boundary);
-    for (const int body : partition::boundary_surface(decomposition_, boundary, on_body).body)
-      faces[static_cast<std::size_t>(body)] += 1;
+    for (const auto& found : places.supports[i])
+      if (found.subdomain >= 0 && decomposition_.rank_of(found.subdomain) == comm.rank())
+        faces[couplings * bodies + static_cast<std::size_t>(found.body)] += 1;
+    if (support.points.empty())
+      count_faces(support.coupling.empty() ? support.boundary : deck_.couplings.at(support.coupling).boundary, couplings);
   }
   comm.sum_in_place(faces);
-  std::vector<bool> result;
-  for (const double count : faces) result.push_back(count > 0);
+
+  std::vector<std::vector<std::size_t>> tied(couplings);  // bodies that move together
+  for (std::size_t c = 0; c < couplings; ++c)
+    for (std::size_t b = 0; b < bodies; ++b)
+      if (faces[c * bodies + b] > 0) tied[c].push_back(b);
+  for (const auto& ends : places.springs) {
+    auto& two = tied.emplace_back();
+    for (const auto& end : ends)
+      if (end.subdomain >= 0) two.push_back(static_cast<std::size_t>(end.body));
+  }
+  std::vector<bool> result = touched;
+  for (std::size_t b = 0; b < bodies; ++b)
+    if (faces[couplings * bodies + b] > 0) result[b] = true;
+  for (bool more = true; std::exchange(more, false);)
+    for (const auto& group : tied) {
+      const auto is_held = [&](std::size_t b) { return result[b]; };
+      if (std::ranges::none_of(group, is_held) || std::ranges::all_of(group, is_held)) continue;
+      for (const std::size_t b : group) result[b] = true;
+      more = true;
+    }
   return result;
 }
 

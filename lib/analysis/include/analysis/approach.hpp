@@ -23,11 +23,14 @@ class CarriedContact;
 /// One way to solve all load steps, on a decomposition of its own.
 struct Approach {
   enum class Kind {
-    as_asked,            ///< what the deck says
-    smaller_subdomains,  ///< the same with large subdomains cut into small pieces
-    direct_instead,      ///< every body whole but those of boundary elements, and F as a matrix
-    products_to_the_end  ///< face Newton without patience, after a direct solution that failed
+    as_asked,             ///< what the deck says
+    smaller_subdomains,   ///< the same with large subdomains cut into small pieces
+    direct_instead,       ///< every body whole but those of boundary elements, and F as a matrix
+    products_to_the_end,  ///< face Newton without patience, after a direct solution that failed
+    whole_bodies          ///< as asked with every body whole but those of boundary elements; records count in this order
   } kind = Kind::as_asked;
+  /// Whether its bodies are whole.
+  bool takes_bodies_whole() const { return kind == Kind::direct_instead || kind == Kind::whole_bodies; }
   std::string algorithm;                   ///< as solver.algorithm of the deck
   std::optional<qp::Patience> patience{};  ///< when a load step gives up, see feti::DualSolution::gave_up
   int spent = 0;                           ///< products with F so far, those of earlier approaches included
@@ -38,7 +41,8 @@ struct Approach {
 };
 
 /// The approach with its patience: with `auto` as many products as a direct solution costs, or few where subdomains are several
-/// times as large as usual and smaller ones are to be tried next. Throws Error(machine) if the deck asks for a direct solution
+/// times as large as usual and smaller ones are to be tried next. Where a direct solution takes long, products with whole bodies
+/// come before it. Throws Error(machine) if the deck asks for a direct solution
 /// and there is no room for it. Collective.
 Approach with_patience(Approach approach, const Assembly& assembly, const constraint::Constraints& constraints,
                        const Communicator& comm);
@@ -62,7 +66,8 @@ using Attempt = std::function<Outcome(const partition::Decomposition&, const App
 
 /// Tries one approach after the other until one does not give up. First what the deck asks for on the decomposition `as_cut`.
 /// Where products with F find no end, large subdomains are cut into small pieces, since the coarse problem of many small ones
-/// knows how slender bodies bend; then bodies are taken whole and solved directly; where rounding (cells a thousand times as long
+/// knows how slender bodies bend; then bodies are taken whole, with products where a direct solution takes long, and solved
+/// directly; where rounding (cells a thousand times as long
 /// as thick) or memory spoils that, products with F go on to their limit. `resumed`: the approach that an earlier run came to,
 /// with which this one begins. Throws what the last attempt throws. Collective.
 ExitStatus try_approaches(const model::Deck& deck, const partition::Decomposition& as_cut, const Attempt& attempt,

@@ -78,8 +78,9 @@ class Model {
   /// What supports, loads and couplings of a state do at the nodes of this rank's faces. In axisymmetry the axis is a face as
   /// well. Collective.
   std::vector<FaceAction> face_actions(const LoadState& state, const Communicator& comm) const;
-  /// For each body whether one of the deck's supports lies on it. Collective.
-  std::vector<bool> supported(const Communicator& comm) const;
+  /// For each body whether it is one of those `touched`, one of the deck's supports lies on it, or a coupling or a spring ties it
+  /// to such a body. Collective.
+  std::vector<bool> held(const std::vector<bool>& touched, const Communicator& comm) const;
   struct Facts {
     double area = 0;
     Point centre = Point::Zero();
