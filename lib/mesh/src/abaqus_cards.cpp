@@ -87,9 +87,8 @@ void AbaqusReader::begin(const std::string& line)
   }
   if (!is_ours()) return;
   if (card_.parameters.contains("INPUT"))
-    report_error(line_, fmt::format("the lines of *{} are in the file \"{}\"; write them into this one, or let `mortise import` "
-                                    "make a deck of it",
-                                    card_.name, card_.parameters["INPUT"]));
+    report_error(line_, fmt::format("the lines of *{} are in the file \"{}\"; write them into this one", card_.name,
+                                    card_.parameters["INPUT"]));
   if (card_.name == "NODE") {
     begin_node();
   } else if (card_.name == "NSET") {
