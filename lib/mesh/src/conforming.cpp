@@ -37,7 +37,7 @@ Groups group(const RawMesh& raw, const Options& options)
 
 namespace {
 
-constexpr double same_place = 1e-4;  // of an edge
+constexpr double same_place = 0.05;  // of an edge: one of two nodes may lie on a curve and the other one amid the corners
 constexpr double far_nearer = 0.25;  // times the distance from where a node belongs
 
 // Two cells of one body must meet with the same kind of face, in the same nodes, and on its two sides.
@@ -55,8 +55,8 @@ class FaceCheck {
                      body(a), name(type(a)), name(type(b))));
   }
 
-  // Corners alone would tie the two cells at points, and they would gape between them. Two arcs from one corner to another are
-  // a hole, whose edges these are.
+  // Corners alone would tie the two cells at points, and they would gape between them. Two arcs that are far apart between the
+  // same corners are a hole.
   void require_same_nodes(const CellFace& a, const CellFace& b) const
   {
     if (first_order(type(a)) == type(a)) return;
@@ -72,7 +72,8 @@ class FaceCheck {
                        "the nodes between them: {}",
                        tag(a), tag(b), body(a), x[0], x[1], x[2], cause));
     };
-    if (twice) refuse("these are twice at the same places; merge them, or join the parts before they are made of second order");
+    if (twice)
+      refuse("these are twice, at the same places or nearly; merge them, or join the parts before they are made of second order");
     for (const auto* face : {&a, &b})
       if (is_out_of_order(face->cell))
         refuse(fmt::format("element {} has them in another order than the file's format asks for", tag(*face)).c_str());

@@ -183,15 +183,17 @@ TEST(Abaqus, NeighboursWithOtherNodesBetweenTheirCornersAreRefused)
 {
   const auto square = [](const char* middles) {
     return read_text(
-        std::string("*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n4, 1, 1\n5, 0.5, 0\n6, 0.5, 0.5\n7, 0, 0.5\n8, 1, 0.5\n9, 0.5, 1\n"
-                    "10, 0.5, 0.5\n11, 0.6, 0.6\n*ELEMENT, TYPE=CPE6, ELSET=all\n1, 1, 2, 3, 5, 6, 7\n2, 2, 4, 3, ") +
+        std::string(
+            "*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n4, 1, 1\n5, 0.5, 0\n6, 0.5, 0.5\n7, 0, 0.5\n8, 1, 0.5\n9, 0.5, 1\n"
+            "10, 0.5, 0.5\n11, 0.6, 0.6\n12, 0.52, 0.52\n*ELEMENT, TYPE=CPE6, ELSET=all\n1, 1, 2, 3, 5, 6, 7\n2, 2, 4, 3, ") +
             middles + "\n",
         2);
   };
   EXPECT_EQ(square("8, 9, 6").catalogue.bodies.size(), 1U);
   EXPECT_EQ(square("8, 9, 11").catalogue.bodies.size(), 1U) << "a hole between two arcs";
-  for (const auto& [middles, what] : {std::pair("8, 9, 10", "but not the nodes between them: these are twice"),
-                                      std::pair("6, 9, 8", "element 2 has them in another order")})
+  for (const auto& [middles, what] :
+       {std::pair("8, 9, 10", "but not the nodes between them: these are twice"), std::pair("8, 9, 12", "or nearly; merge them"),
+        std::pair("6, 9, 8", "element 2 has them in another order")})
     try {
       square(middles);
       ADD_FAILURE() << middles;
