@@ -59,7 +59,7 @@ TEST(Materials, StiffnessAndWeightAreThoseOfTheParts)
     add_acceleration(mesh, kinematics, layers.materials, g, weight);
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
     for (int half = 0; half < 2; ++half) {
-      const auto part = mesh::submesh(mesh, layers.cells[half]);
+      const auto part = mesh::Submeshes(mesh)(layers.cells[half]);
       const auto& own = layers.materials[static_cast<std::size_t>(half)];
       const Eigen::MatrixXd k = stiffness(part, own, kinematics);
       Eigen::VectorXd f = Eigen::VectorXd::Zero(k.rows());

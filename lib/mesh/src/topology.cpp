@@ -121,39 +121,57 @@ std::vector<int> connected_parts(const Neighbours& neighbours, const std::vector
   return part;
 }
 
-Mesh submesh(const Mesh& mesh, std::span<const Local> cells)
+Submeshes::Submeshes(const Mesh& mesh) : mesh_(mesh), local_(mesh.points.size(), -1), first_facet_(mesh.cells.size() + 1, 0)
+{
+  const auto& parent = mesh.facets.parent;
+  for (const Local p : parent) ++first_facet_[static_cast<std::size_t>(p) + 1];
+  std::partial_sum(first_facet_.begin(), first_facet_.end(), first_facet_.begin());
+  facet_.resize(parent.size());
+  auto next = first_facet_;
+  for (std::size_t f = 0; f < parent.size(); ++f) facet_[next[static_cast<std::size_t>(parent[f])]++] = f;
+}
+
+Mesh Submeshes::operator()(std::span<const Local> cells)
 {
   std::vector<Local> nodes;
   for (const Local c : cells)
-    nodes.insert(nodes.end(), mesh.cells[static_cast<std::size_t>(c)].begin(), mesh.cells[static_cast<std::size_t>(c)].end());
+    for (const Local n : mesh_.cells[static_cast<std::size_t>(c)])
+      if (auto& known = local_[static_cast<std::size_t>(n)]; known < 0) {
+        known = 0;
+        nodes.push_back(n);
+      }
   std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  const auto local = [&](Local n) { return static_cast<Local>(std::lower_bound(nodes.begin(), nodes.end(), n) - nodes.begin()); };
 
   Mesh result;
   for (const Local n : nodes) {
-    result.node_id.push_back(mesh.node_id[static_cast<std::size_t>(n)]);
-    result.points.push_back(mesh.points[static_cast<std::size_t>(n)]);
+    const auto i = static_cast<std::size_t>(n);
+    local_[i] = static_cast<Local>(result.points.size());
+    result.node_id.push_back(mesh_.node_id[i]);
+    result.points.push_back(mesh_.points[i]);
   }
+  std::vector<Local> renumbered;
   const auto add = [&](Cells& to, CellType type, std::span<const Local> from) {
-    std::vector<Local> renumbered;
-    for (const Local n : from) renumbered.push_back(local(n));
+    renumbered.clear();
+    for (const Local n : from) renumbered.push_back(local_[static_cast<std::size_t>(n)]);
     to.add(type, renumbered);
   };
+  std::vector<std::size_t> facets;
   for (const Local c : cells) {
     const auto i = static_cast<std::size_t>(c);
-    add(result.cells, mesh.cells.type[i], mesh.cells[i]);
-    result.cell_id.push_back(mesh.cell_id[i]);
-    result.cell_body.push_back(mesh.cell_body[i]);
-    if (!mesh.cell_volume.empty()) result.cell_volume.push_back(mesh.cell_volume[i]);
+    add(result.cells, mesh_.cells.type[i], mesh_.cells[i]);
+    result.cell_id.push_back(mesh_.cell_id[i]);
+    result.cell_body.push_back(mesh_.cell_body[i]);
+    if (!mesh_.cell_volume.empty()) result.cell_volume.push_back(mesh_.cell_volume[i]);
+    for (auto f = first_facet_[i]; f < first_facet_[i + 1]; ++f) facets.push_back(facet_[f]);
   }
-  for (std::size_t f = 0; f < mesh.facets.cells.size(); ++f) {
-    const auto parent = std::lower_bound(cells.begin(), cells.end(), mesh.facets.parent[f]);
-    if (parent == cells.end() || *parent != mesh.facets.parent[f]) continue;
-    add(result.facets.cells, mesh.facets.cells.type[f], mesh.facets.cells[f]);
+  std::sort(facets.begin(), facets.end());
+  for (const auto f : facets) {
+    const auto parent = std::lower_bound(cells.begin(), cells.end(), mesh_.facets.parent[f]);
+    add(result.facets.cells, mesh_.facets.cells.type[f], mesh_.facets.cells[f]);
     result.facets.parent.push_back(static_cast<Local>(parent - cells.begin()));
-    result.facets.boundary.push_back(mesh.facets.boundary[f]);
+    result.facets.boundary.push_back(mesh_.facets.boundary[f]);
   }
+  for (const Local n : nodes) local_[static_cast<std::size_t>(n)] = -1;
   return result;
 }
 

@@ -102,7 +102,7 @@ TEST(Topology, SubmeshKeepsItsFacets)
 {
   const auto options = one_block("hex8", {2, 2, 2});
   const auto mesh = generate(options, 3, 0, {0, 0, 0}, {2, 2, 2});
-  const auto part = submesh(mesh, std::vector<Local>{0, 3});
+  const auto part = Submeshes(mesh)(std::vector<Local>{0, 3});
   EXPECT_EQ(part.cells.size(), 2U);
   EXPECT_EQ(part.facets.cells.size(), 6U);  // two corner cells with three outer faces each
   EXPECT_EQ(part.node_count(), 14U);        // they share an edge

@@ -72,8 +72,9 @@ std::vector<std::vector<PieceOfPart>> cut_parts(const mesh::Mesh& parts, const m
     of_part[static_cast<std::size_t>(parts.cell_body[c])].push_back(static_cast<Local>(c));
   std::vector<mesh::Mesh> pieces;
   std::vector<long long> nodes;
+  mesh::Submeshes submeshes(parts);
   for (const auto& list : of_part) {
-    pieces.push_back(mesh::submesh(parts, list));
+    pieces.push_back(submeshes(list));
     const bool surface = !list.empty() && mesh::dimension(pieces.back().cells.type[0]) < dimension;
     nodes.push_back(surface ? 0 : static_cast<long long>(pieces.back().node_count()));
   }
@@ -132,12 +133,13 @@ Share distribute(const mesh::Mesh& parts, const mesh::Layout& layout, int dimens
   comm.broadcast(weight);
   comm.broadcast(share.clusters);
   share.first = deal(weight, share.clusters, comm.size());
+  mesh::Submeshes submeshes(parts);
   for (int rank = 0; rank < comm.size(); ++rank) {  // one rank after the other, so that rank 0 holds one copy at a time
     std::vector<std::vector<char>> send(static_cast<std::size_t>(comm.size()));
     if (comm.root())
       for (Global s = share.first[static_cast<std::size_t>(rank)]; s < share.first[static_cast<std::size_t>(rank) + 1]; ++s) {
         const auto& [body, number] = pieces[static_cast<std::size_t>(s)];
-        auto piece = mesh::submesh(parts, of_part[part_of(body)][number].cells);
+        auto piece = submeshes(of_part[part_of(body)][number].cells);
         pack({s, body, mesh::instantiate(std::move(piece), layout.bodies[static_cast<std::size_t>(body)], body)},
              send[static_cast<std::size_t>(rank)]);
       }

@@ -23,7 +23,8 @@ Decomposition smaller_subdomains(const Decomposition& decomposition, int unknown
     const auto label = cut(subdomain.mesh.cells, count);
     std::vector<std::vector<Local>> cells(1 + static_cast<std::size_t>(*std::max_element(label.begin(), label.end())));
     for (std::size_t c = 0; c < label.size(); ++c) cells[static_cast<std::size_t>(label[c])].push_back(static_cast<Local>(c));
-    for (const auto& list : cells) pieces.push_back({0, subdomain.body, mesh::submesh(subdomain.mesh, list)});
+    mesh::Submeshes submeshes(subdomain.mesh);
+    for (const auto& list : cells) pieces.push_back({0, subdomain.body, submeshes(list)});
   }
   std::vector<long long> own;  // cells of each piece
   for (const auto& piece : pieces) own.push_back(static_cast<long long>(piece.mesh.cells.size()));

@@ -42,8 +42,18 @@ Neighbours face_neighbours(std::span<const CellFace> faces, std::size_t cells);
 /// of their smallest cells.
 std::vector<int> connected_parts(const Neighbours& neighbours, const std::vector<int>& label);
 
-/// The mesh of some cells of `mesh`, ascending indices: its nodes are those of the cells, its facets those whose parents are
-/// among them.
-Mesh submesh(const Mesh& mesh, std::span<const Local> cells);
+/// Cuts meshes out of `mesh`, to which it refers; each takes time by its own size.
+class Submeshes {
+ public:
+  explicit Submeshes(const Mesh& mesh);
+  /// That of some cells, ascending indices: its nodes are those of the cells, its facets those whose parents are among them.
+  Mesh operator()(std::span<const Local> cells);
+
+ private:
+  const Mesh& mesh_;
+  std::vector<Local> local_;              ///< of each node: its number in the piece that is made; -1 between pieces
+  std::vector<std::size_t> first_facet_;  ///< of each cell, in facet_; and the end
+  std::vector<std::size_t> facet_;        ///< facets, cell by cell
+};
 
 }  // namespace mortise::mesh
