@@ -12,6 +12,7 @@
 #include "gaps/spanned_turns.hpp"
 #include "gaps/starting_gaps.hpp"
 #include "integrals/cut_faces.hpp"
+#include "rows/bond_directions.hpp"
 #include "rows/bond_owners.hpp"
 #include "rows/contact_nodes.hpp"
 #include "rows/discretization.hpp"
@@ -33,8 +34,6 @@
 
 namespace mortise::contact {
 
-// Of a row: where supports leave no more, what they push into each other is not for the rest to make good.
-inline constexpr double hardly_moves = 0.05;
 // Of a facet's corner, in what lies opposite a node.
 inline constexpr double no_part = 1e-6;
 
@@ -213,12 +212,11 @@ class ContactBuilder {
     return result;
   }
 
-  // Contact may push along a part of a normal that supports leave free. Cuts of sectors, and what is bonded to an obstacle, have
-  // nothing to ask for supports.
+  // Contact may push along a part of a normal that supports leave free. What is bonded to an obstacle has nothing to ask for
+  // supports.
   std::vector<char> primary_prescribed()
   {
-    if (bonded() && (options_.cyclic || options_.obstacle)) return std::vector<char>(nodes_.all.size(), 1);
-    if (options_.obstacle) return std::vector<char>(nodes_.all.size(), 0);
+    if (options_.obstacle) return std::vector<char>(nodes_.all.size(), bonded() ? 1 : 0);
     return opposite_supports_.prescribed_along_normals(
         faces_, bonded() ? &OppositeSupports::prescribe : &OppositeSupports::prescribe_all);
   }
@@ -263,17 +261,21 @@ class ContactBuilder {
   {
     const SurfaceNode& node_here = surface_node(p);
     const auto [at, own_normal] = points_.at(p);
-    const Point normal = bonded() ? node_here.normal : rays_.direction(faces_.surface_node(p), at, own_normal);
+    const Point across = bonded() ? node_here.normal : rays_.direction(faces_.surface_node(p), at, own_normal);
+    if (bonded() && !options_.preload) conflicts_.note_tear(terms_, d, across);
+    const bool prescribed = !writer_.moves(terms_, d, across);  // on both sides
+    const auto bond =
+        bonded() && !prescribed ? bond_directions(writer_, terms_, across, !options_.obstacle, dimension_) : std::nullopt;
+    const Point& normal = bond ? bond->normal : across;
     constraint::ContactNode node{
         index_, secondary_.node_id[static_cast<std::size_t>(node_here.node)], d, normal, {}, contacts.rows.size()};
-    if (bonded() && !options_.preload) conflicts_.note_tear(terms_, d, normal);
-    const bool prescribed = !writer_.moves(terms_, d, normal);  // on both sides
-    Few<Point, 2> prescribed_tangents;                          // tangents along which supports hold both
+    Few<Point, 2> prescribed_tangents;  // tangents along which supports hold both
     if (!prescribed && options_.law != Law::frictionless) {
-      for (const auto& tangent : writer_.across_axis(node_here.node, normal, tangents(p, normal)))
+      const auto along = bond ? bond->tangents : tangents(p, normal);
+      for (const auto& tangent : writer_.across_axis(node_here.node, normal, along))
         if (writer_.moves(terms_, d, tangent)) node.tangents.push_back(tangent);
       if (!bonded()) {
-        writer_.leave_what_moves(terms_, d, normal, node.tangents);
+        writer_.leave_what_moves(terms_, normal, node.tangents);
         const auto others = other_tangents(normal, node.tangents, dimension_);
         for (const auto& tangent : writer_.across_axis(node_here.node, normal, others))
           if (writer_.prescribed_on_both_sides(terms_, tangent)) prescribed_tangents.push_back(tangent);
@@ -312,6 +314,10 @@ class ContactBuilder {
       writer_.add_prescribed(terms_, d, tangent, contacts);
       node.tangents.push_back(tangent);
     }
+    for (const auto& tangent : bond ? bond->of_primary : Few<Point, 2>()) {
+      writer_.add(terms_, d, tangent, 0, contacts);
+      node.tangents.push_back(tangent);
+    }
     between_->note(node, points_.means_field(p), terms_, d, secondary_, primary_);
     contacts.nodes.push_back(std::move(node));
     contacts.bonded.push_back(bonded());
@@ -329,7 +335,7 @@ class ContactBuilder {
   Few<Point, 2> tangents(std::size_t p, const Point& normal)
   {
     Few<Point, 2> result = free_tangents(p, normal);
-    if ((bonded() && options_.cyclic) || options_.obstacle) return result;
+    if (options_.obstacle) return result;
     const auto others = other_tangents(normal, result, dimension_);
     if (others.empty()) return result;
     const Opposite opposite = opposite_of(p);

@@ -4,22 +4,29 @@
 
 namespace mortise::contact {
 
+namespace {
+
+// Of the shape functions opposite: on curved sides a line along the normal meets the other side beside what is held.
+constexpr double next_to_nothing = 0.1;
+
+}  // namespace
+
 bool OppositeSupports::prescribe(const Opposite& opposite, const Point& direction) const
 {
-  constexpr double none = 1e-6;  // of shape functions
   if (!std::isfinite(opposite.gap)) return true;
   const auto nodes = primary_.facets[opposite.facet];
   const Point there = turned_back(direction);
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    if (std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]) > none &&
-        !supports_.holds(primary_.node_id[static_cast<std::size_t>(nodes[k])], there, dimension_))
-      return false;
-  return true;
+  double free = 0, all = 0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const double part = std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]);
+    if (!supports_.holds(primary_.node_id[static_cast<std::size_t>(nodes[k])], there, dimension_)) free += part;
+    all += part;
+  }
+  return free < next_to_nothing * all;
 }
 
 bool OppositeSupports::prescribe_all(const Opposite& opposite, const Point& direction) const
 {
-  constexpr double next_to_nothing = 0.1;
   if (!std::isfinite(opposite.gap)) return true;
   const auto nodes = primary_.facets[opposite.facet];
   const Point there = turned_back(direction);

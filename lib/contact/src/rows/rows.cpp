@@ -129,26 +129,43 @@ Few<Point, 2> RowWriter::across_axis(Local node, const Point& normal, std::span<
   return result;
 }
 
-void RowWriter::leave_what_moves(std::span<const Term> terms, double d, const Point& normal, std::vector<Point>& tangents)
+Eigen::Matrix3d RowWriter::mobility(std::span<const Term> terms, bool secondary_alone) const
 {
-  if (tangents.empty()) return;
-  Eigen::Matrix3d mobility = Eigen::Matrix3d::Zero();  // the scalar product of the rows along two directions
+  Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
   double all = 0;
   for (const auto& term : terms) {
-    const double square = term.value / d * (term.value / d);
-    mobility += square * free_part(term);
-    all += square;
+    if (secondary_alone && term.on_primary) continue;
+    result += term.value * term.value * free_part(term);
+    all += term.value * term.value;
   }
-  const Point felt = mobility * normal;
-  mobility -= felt * felt.transpose() / felt.dot(normal);
-  const double least = prescribed_but_for * prescribed_but_for * all;
+  return all > 0 ? Eigen::Matrix3d(result / all) : result;
+}
+
+Few<Point, 3> RowWriter::held_on_secondary(std::span<const Term> terms) const
+{
+  constexpr double nothing = 0.01;  // of squares: a tenth of a coefficient, as nodes beside may have
+  Eigen::Matrix3d freedom = mobility(terms, true);
+  if (dimension_ == 2) freedom(2, 2) = 1;
+  const auto moves = dense::space_eigenpairs(freedom);
+  Few<Point, 3> result;
+  for (Eigen::Index k = 0; k < 3 && moves.values[k] <= nothing; ++k) result.push_back(moves.vectors.col(k));
+  return result;
+}
+
+void RowWriter::leave_what_moves(std::span<const Term> terms, const Point& normal, std::vector<Point>& tangents)
+{
+  if (tangents.empty()) return;
+  Eigen::Matrix3d product = mobility(terms);
+  const Point felt = product * normal;
+  product -= felt * felt.transpose() / felt.dot(normal);
+  constexpr double least = prescribed_but_for * prescribed_but_for;
   if (tangents.size() == 1) {
-    if (tangents[0].dot(mobility * tangents[0]) < least) tangents.clear();
+    if (tangents[0].dot(product * tangents[0]) < least) tangents.clear();
     return;
   }
   Eigen::Matrix<double, 3, 2> plane;
   plane << tangents[0], tangents[1];
-  const auto moves = dense::plane_eigenpairs(plane.transpose() * mobility * plane);
+  const auto moves = dense::plane_eigenpairs(plane.transpose() * product * plane);
   if (moves.values[0] >= least) return;
   tangents.clear();
   if (moves.values[1] >= least) tangents.emplace_back(plane * moves.vectors.col(1));

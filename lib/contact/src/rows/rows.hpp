@@ -52,7 +52,10 @@ class RowWriter {
   /// Leaves those of the tangents of `normal` (or the one direction between two) along which more than `prescribed_but_for` of
   /// the terms can move, what the row along the normal feels aside. A point near a plane of symmetry that both sides have has a
   /// row across it that is nearly a combination of its others: no friction acts there.
-  void leave_what_moves(std::span<const Term> terms, double d, const Point& normal, std::vector<Point>& tangents);
+  void leave_what_moves(std::span<const Term> terms, const Point& normal, std::vector<Point>& tangents);
+  /// An orthonormal basis of the directions in which supports hold the secondary nodes of the terms, those with
+  /// small coefficients aside.
+  Few<Point, 3> held_on_secondary(std::span<const Term> terms) const;
   /// What supports contribute to the row.
   double prescribed_part(std::span<const Term> terms, double d, const Point& axis);
   /// Appends the row <= bound, without what supports hold. `couple`: what comes to it along another axis.
@@ -101,6 +104,8 @@ class RowWriter {
   void merge();
   // Of a term's node: the projector onto what supports leave free, turned as the node is.
   Eigen::Matrix3d free_part(const Term& term) const;
+  // The scalar product of the rows along two directions, over the sum of the squares of the terms; of one side or both.
+  Eigen::Matrix3d mobility(std::span<const Term> terms, bool secondary_alone = false) const;
 
   const Side &secondary_, &primary_;
   const SupportedNodes &supports_, &primary_supports_;

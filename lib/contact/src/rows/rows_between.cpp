@@ -242,7 +242,7 @@ void RowsBetween::add_to(constraint::Contacts& contacts, const SupportDirectory&
     if (setting.tangents) {
       node.tangents = directions(node.normal, {false, false, false}, {}, dimension).tangents;
       std::erase_if(node.tangents, [&](const Point& tangent) { return !writer.moves(terms, 1, tangent); });
-      writer.leave_what_moves(terms, 1, node.normal, node.tangents);
+      writer.leave_what_moves(terms, node.normal, node.tangents);
       for (const auto& tangent : other_tangents(node.normal, node.tangents, dimension))
         if (writer.prescribed_on_both_sides(terms, tangent)) fixed.push_back(tangent);
     }

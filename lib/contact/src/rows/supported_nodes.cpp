@@ -84,7 +84,7 @@ Directions directions(const Point& normal, const std::array<bool, 3>& prescribed
     else
       free.push_back(c);
   }
-  if (free_part.norm() < nothing_moves) {
+  if (free_part.norm() < hardly_moves) {
     result.free_normal = false;
     return result;
   }

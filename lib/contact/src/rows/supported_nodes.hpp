@@ -13,6 +13,9 @@ namespace mortise::contact {
 /// Part of a direction, or of a row: what supports leave less of they hold, their directions at two nodes being known no better.
 /// A row of what is left would tear the sides apart.
 inline constexpr double nothing_moves = 1e-5;
+/// Of a normal: supports that leave no more of it hold it. A row along it would bear what acts along the rest with at least
+/// twenty times that, and push the supports apart with it.
+inline constexpr double hardly_moves = 0.05;
 
 /// The supports of all ranks, those of a node on rank node % ranks.
 class SupportDirectory {
