@@ -1,5 +1,6 @@
 #include "friction/coulomb.hpp"
 
+#include <tuple>
 #include <utility>
 
 #include "coulomb_search.hpp"
@@ -46,10 +47,10 @@ double CoulombSearch::change_of_radii(const std::vector<double>& wanted, const s
 }
 
 // Of bounds and forces that were found together. Where the error decides, what the bounds would still change counts in it.
-bool CoulombSearch::obeys_law(const qp::Solution& found, const std::vector<double>& radii, double change) const
+bool CoulombSearch::obeys_law(qp::Solution& found, const std::vector<double>& radii, double change)
 {
   return found.converged && (problem_.goal.allowed_error || change <= problem_.options.tolerance) &&
-         balances(problem_.dual, problem_.omega, radii, found.x);
+         balances(problem_.dual, problem_.omega, radii, found.x) && judge(found);
 }
 
 void CoulombSearch::follow_law()
@@ -80,23 +81,29 @@ void CoulombSearch::follow_cautiously()
 {
   if (converged_ || !means_.budget.left()) return;
   means_.budget.change_algorithm();
-  const auto found = means_.algorithm.solve(problem_.right, slip_law(true), problem_.before, problem_.goal, watch_);
+  auto found = means_.algorithm.solve(problem_.right, slip_law(true), problem_.before, problem_.goal, watch_);
   if (!found) return;
   count(*found);
   if (!found->feasible) return;
   auto radii = radii_at(&found->x);
   const double change = change_of_radii(radii, found->radii, *found);
-  if (!obeys_law(*found, radii, change)) return;
-  at_work_ = found->radii;
+  const auto before = std::pair(std::exchange(at_work_, found->radii), judged_);
+  if (!obeys_law(*found, radii, change)) {
+    std::tie(at_work_, judged_) = before;
+    return;
+  }
   radii_ = std::move(radii);
   change_ = change;
   solution_ = found;
   solved_ = converged_ = true;
 }
 
-void CoulombSearch::judge()
+bool CoulombSearch::judge(qp::Solution& solution)
 {
-  judge_by_law(problem_.dual, problem_.omega.with_radii(at_work_), problem_.laws, means_.hessian, *solution_);
+  constexpr double slack = 1.5;  // of an allowed error, by what is next to nothing in energy at the limit of friction
+  judge_by_law(problem_.dual, problem_.omega.with_radii(at_work_), problem_.laws, means_.hessian, solution);
+  judged_ = true;
+  return !problem_.goal.allowed_error || !(solution.error > slack * problem_.goal.allowed_error(solution.x, solution.nu));
 }
 
 CoulombSolution CoulombSearch::solve(const CoulombWays& ways)
@@ -111,7 +118,7 @@ CoulombSolution CoulombSearch::solve(const CoulombWays& ways)
   else if (step_ >= problem_.options.max_steps)
     limit = "friction_loop.max_steps";
   if (ways.cautiously) follow_cautiously();
-  if (solved_ && (converged_ || !(spent || hessian.exhausted()))) judge();
+  if (solved_ && (converged_ || !(spent || hessian.exhausted())) && !judged_) judge(*solution_);
   return {{.solution = *solution_,
            .steps = step_,
            .change = change_,

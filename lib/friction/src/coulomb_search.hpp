@@ -23,13 +23,13 @@ class CoulombSearch {
   /// From what was found so far.
   void fixed_point();
   void follow_cautiously();
-  /// Takes what bounds and normal forces still differ by for error.
-  void judge();
+  /// Takes what bounds and normal forces still differ by for error; whether the whole is allowed. Only once of a solution.
+  bool judge(qp::Solution& solution);
 
   std::vector<double> radii_at(const Vector* lambda) const;
   qp::SlipLaw slip_law(bool cautious) const;
   void count(const qp::Solution& found);
-  bool obeys_law(const qp::Solution& found, const std::vector<double>& radii, double change) const;
+  bool obeys_law(qp::Solution& found, const std::vector<double>& radii, double change);
   double change_of_radii(const std::vector<double>& wanted, const std::vector<double>& now, const qp::Solution& at) const;
   bool believable() const;
   // Of the fixed point.
@@ -48,6 +48,7 @@ class CoulombSearch {
   std::vector<double> at_work_;                 // those of the last problem that was solved, or tried
   std::optional<qp::Solution> solution_;        // at first the start
   bool solved_ = false;                         // it is of this load step
+  bool judged_ = false;                         // and what it breaks the law by counts in its error
   bool converged_ = false;
   double change_ = 1;
   int step_ = 0, outer_ = 0, preconditionings_ = 0;

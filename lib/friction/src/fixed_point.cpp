@@ -38,6 +38,7 @@ bool CoulombSearch::solve_tresca(const qp::Goal& goal)
   }
   count(next);
   solution_ = std::move(next);
+  judged_ = false;
   return true;
 }
 
@@ -73,7 +74,7 @@ bool CoulombSearch::at_rest(const std::vector<double>& wanted, double tolerance)
     return bounds_rest && tolerance <= goal.residual && solution.converged && believable();
   solution.error += error_of_bounds(wanted) * to_come(response_);
   if (change_ <= worth_a_look && solution.error <= goal.allowed_error(solution.x, solution.nu) && qp::fits(solution, goal) &&
-      balances(problem_.dual, problem_.omega, wanted, solution.x) && contacts_at_rest())
+      balances(problem_.dual, problem_.omega, wanted, solution.x) && contacts_at_rest() && judge(solution))
     return true;
   // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
   return bounds_rest && solution.converged && tolerance <= 1e-1 * problem_.options.tolerance && believable();
