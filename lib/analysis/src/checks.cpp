@@ -199,23 +199,25 @@ std::vector<Warning> idle_contacts(const Rows& rows, const Communicator& comm)
   std::vector<double> points(rows.pairs.size(), 0.0);
   for (const auto& point : rows.constraints.contacts.nodes) points[static_cast<std::size_t>(point.contact)] += 1;
   comm.sum_in_place(points);
-  std::vector<Warning> result;
-  for (std::size_t c = 0; c < points.size(); ++c) {
-    if (points[c] > 0) continue;
-    Warning w{
-        "idle_contact",
-        fmt::format("contact {} has no point: its surfaces do not face each other within the search distance, or share less than "
-                    "a hundredth of a cell, and nothing keeps them apart",
-                    rows.pairs[c].options.name),
-        rows.pairs[c].options.cyclic
-            ? "look at angle, axis and center of the sector and at the names, or set a larger search_distance"
-            : "look at the names, set a larger search_distance, or refine the secondary side"};
-    w.contact = rows.pairs[c].options.name;
-    w.boundary = rows.pairs[c].options.secondary;
-    w.limit = 1;
-    result.push_back(std::move(w));
-  }
-  return result;
+  std::vector<const contact::Options*> idle;
+  for (std::size_t c = 0; c < points.size(); ++c)
+    if (!(points[c] > 0)) idle.push_back(&rows.pairs[c].options);
+  if (idle.empty()) return {};
+  constexpr std::size_t told = 6;
+  std::string others;
+  for (std::size_t i = 1; i < std::min(idle.size(), told); ++i) others += (i > 1 ? ", " : "; nor have ") + idle[i]->name;
+  if (idle.size() > told) others += fmt::format(" and {} more", idle.size() - told);
+  const auto& first = *idle.front();
+  Warning w{"idle_contact",
+            fmt::format("contact {} has no point: its surfaces do not face each other within the search distance, or share less "
+                        "than a hundredth of a cell, and nothing keeps them apart{}",
+                        first.name, others),
+            first.cyclic ? "look at angle, axis and center of the sector and at the names, or set a larger search_distance"
+                         : "look at the names, set a larger search_distance, or refine the secondary side"};
+  w.contact = first.name;
+  w.boundary = first.secondary;
+  w.limit = 1;
+  return {w};
 }
 
 // The longest edge of the cells between two corners, with its middle. Collective.

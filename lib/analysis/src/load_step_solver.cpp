@@ -53,7 +53,7 @@ qp::Solution carry_solution(const feti::DualProblem& from, const qp::Solution& s
 }
 
 post::ElasticBodies elastic_bodies(const Assembly& assembly, std::span<const fem::Constitution> constitution,
-                                   const SymmetricNodes& symmetric)
+                                   const post::SymmetricNodes& symmetric)
 {
   return {assembly.decomposition(),
           assembly.interface(),
@@ -62,16 +62,17 @@ post::ElasticBodies elastic_bodies(const Assembly& assembly, std::span<const fem
           assembly.model().most_materials(),
           assembly.copies(),
           assembly.system().clusters.subdomains(),
-          symmetric};
+          &symmetric};
 }
 
 }  // namespace
 
 namespace {
 
-std::shared_ptr<const SymmetricNodes> symmetric_nodes_of(const Rows& rows, const Assembly& assembly, const Communicator& comm)
+std::shared_ptr<const post::SymmetricNodes> symmetric_nodes_of(const Rows& rows, const Assembly& assembly,
+                                                               const Communicator& comm)
 {
-  return std::make_shared<const SymmetricNodes>(
+  return std::make_shared<const post::SymmetricNodes>(
       find_symmetric_nodes(assembly.model(), rows, assembly.directory(), assembly.interface(), comm));
 }
 
@@ -174,6 +175,8 @@ Magnitudes LoadStepSolver::up_to(const StepState& state) const
   for (const auto& f : problem_->jump().apply_transpose(state.solved.solution.x)) square += f.squaredNorm();
   result.force = std::max(result.force, std::sqrt(comm.sum(square)));
   result.rounding.force = std::max(result.rounding.force, part_to_balance * result.force);
+  const bool slides = comm.any(!problem_->set().discs().empty());
+  if (slides && std::isfinite(state.solved.solution.error)) result.slip_error += state.solved.solution.error;
   return result;
 }
 
@@ -309,7 +312,8 @@ post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, c
                                       deck.solver.programme.tolerance.value.value_or(0),
                                       state.before.negligible(),
                                       state.before.rounding,
-                                      state.before.force};
+                                      state.before.force,
+                                      state.before.slip_error};
   const auto bodies = elastic_bodies(assembly, constitution, *state.symmetric);
   auto results = [&] {
     const auto scope = context.timers.scope("stresses");

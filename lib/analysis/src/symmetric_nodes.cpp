@@ -5,6 +5,8 @@
 #include <set>
 #include <tuple>
 
+#include "turned_nodes.hpp"
+
 namespace mortise::analysis {
 
 namespace {
@@ -306,12 +308,10 @@ void turn_about_axis(std::vector<std::vector<post::SymmetricNode>>& symmetric, c
     }
 }
 
-}  // namespace
-
-std::vector<std::vector<post::SymmetricNode>> find_symmetric_nodes(const model::Model& model, const Rows& rows,
-                                                                   const partition::NodeDirectory& directory,
-                                                                   const partition::Interface& interface,
-                                                                   const Communicator& comm)
+// Collective.
+std::vector<std::vector<post::SymmetricNode>> find_mirrored_nodes(const model::Model& model, const Rows& rows,
+                                                                  const partition::NodeDirectory& directory,
+                                                                  const partition::Interface& interface, const Communicator& comm)
 {
   auto actions = model.face_actions(rows.acts, comm);
   if (!comm.any(std::any_of(actions.begin(), actions.end(), [](const auto& a) { return a.kind == Kind::prescribed; }))) return {};
@@ -323,6 +323,15 @@ std::vector<std::vector<post::SymmetricNode>> find_symmetric_nodes(const model::
   drop_crossed(symmetric, model.decomposition(), interface, comm);
   if (model.deck().axisymmetric()) turn_about_axis(symmetric, model.decomposition(), model.rounding(comm));
   return symmetric;
+}
+
+}  // namespace
+
+post::SymmetricNodes find_symmetric_nodes(const model::Model& model, const Rows& rows, const partition::NodeDirectory& directory,
+                                          const partition::Interface& interface, const Communicator& comm)
+{
+  return {find_mirrored_nodes(model, rows, directory, interface, comm),
+          find_turned_nodes(rows, model.decomposition(), directory, comm)};
 }
 
 }  // namespace mortise::analysis

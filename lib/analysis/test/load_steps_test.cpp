@@ -141,6 +141,23 @@ TEST(LoadSteps, StatesAreValuesThatTheNextStartsFrom)
 }
 
 // More than friction can carry.
+// From the slip of one state friction goes on in the next, with all that it is off by.
+TEST(LoadSteps, ErrorsOfSlipAddUp)
+{
+  Analysis run(blocks + supports + "contacts: [{secondary: upper.zmin, primary: lower.zmax, friction: {coulomb: 0.5}}]\n" +
+               "steps: [{name: press, scale: {push: 0}}, {name: push}, {name: back, scale: {push: -1}}]\n");
+  run.solve_all();
+  double sum = 0;
+  for (std::size_t i = 0; i < run.states.size(); ++i) {
+    EXPECT_EQ(run.states[i].before.slip_error, sum) << i;
+    const auto& r = run.results[i];
+    EXPECT_GE(r.algebraic_error * std::sqrt(r.mesh_error.squared_norm), (sum + run.states[i].solved.solution.error) * (1 - 1e-9))
+        << i;
+    sum += run.states[i].solved.solution.error;
+  }
+  EXPECT_GT(sum, 0);
+}
+
 TEST(LoadSteps, NoEquilibriumBeyondFriction)
 {
   Analysis run(blocks + supports + "contacts: [{secondary: upper.zmin, primary: lower.zmax, friction: {coulomb: 0.2}}]\n");

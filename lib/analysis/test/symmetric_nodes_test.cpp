@@ -50,7 +50,7 @@ class Found {
     const auto interface = partition::find_interface(resolved.decomposition, directory, comm_);
     const auto state = model::load_states(deck, resolved.contacts).at(steps - 1);
     const auto rows = place(make_rows(model, state, {}, context), model, directory, {}, comm_);
-    const auto nodes = find_symmetric_nodes(model, rows, directory, interface, comm_);
+    const auto nodes = find_symmetric_nodes(model, rows, directory, interface, comm_).mirrored;
     struct Normal {
       int body;
       std::array<double, 3> at, normal;

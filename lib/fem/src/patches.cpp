@@ -35,11 +35,6 @@ struct Layout {
   static constexpr int right = terms * (terms + 1) / 2, seconds = right + 6 * terms, areas = seconds + 1, width = areas + 4;
 };
 
-bool second_order(mesh::CellType type)
-{
-  return mesh::node_count(type) > mesh::corner_count(type);
-}
-
 bool simplex(mesh::CellType type)
 {
   return mesh::corner_count(type) == mesh::dimension(type) + 1;
@@ -58,7 +53,7 @@ struct Samples {
     const auto& functions = mesh::shape_functions(type);
     const auto& linear = mesh::shape_functions(mesh::first_order(type));
     const auto& corners = linear.nodes();
-    const bool single = !second_order(type);
+    const bool single = !mesh::second_order(type);
     const auto count = single ? 1 : linear.count();
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     for (const auto& corner : corners) centre += corner / static_cast<double>(corners.size());
@@ -130,11 +125,10 @@ void solve_positive(Eigen::Matrix<double, size, size>& a, Eigen::Matrix<double, 
 }
 
 // The one of `size` leading terms that fits best. What the samples do not determine (one row of cells has no slope across) stays
-// zero, by next to nothing on the diagonal; a constant is free of it.
+// zero, by `diagonal` of the entries more on the diagonal; a constant is free of it.
 template <int terms, int size>
-Polynomial<terms> fit(const double* block)
+Polynomial<terms> fit(const double* block, double diagonal)
 {
-  constexpr double next_to_nothing = 1e-7;
   Polynomial<terms> polynomial = Polynomial<terms>::Zero();
   if (!(*block > 0)) return polynomial;
   Eigen::Matrix<double, size, size> normal = Eigen::Matrix<double, size, size>::Zero();
@@ -145,7 +139,7 @@ Polynomial<terms> fit(const double* block)
   for (int i = 0; i < size; ++i) scale[i] = 1 / std::sqrt(std::max(normal(i, i), 1e-300));
   for (int i = 0; i < size; ++i)
     for (int j = 0; j <= i; ++j) normal(i, j) *= scale[i] * scale[j];
-  for (int i = 1; i < size; ++i) normal(i, i) += next_to_nothing;
+  for (int i = 1; i < size; ++i) normal(i, i) += diagonal;
   Eigen::Matrix<double, size, 6, Eigen::RowMajor> right;
   for (int i = 0; i < size; ++i)
     right.row(i) = scale[i] * Eigen::Map<const Polynomial<terms>>(block + Layout<terms>::right).row(i);
@@ -189,7 +183,7 @@ Patches sums_of(const mesh::Mesh& mesh, const Constitution& constitution, Kinema
       for (std::size_t q = 0; q < places.size(); ++q)
         add_sample<terms>(places[q] - mesh.points[static_cast<std::size_t>(n)], weight,
                           at_samples.col(static_cast<Eigen::Index>(q)).data(), block);
-      block[Parts::seconds] += second_order(type);
+      block[Parts::seconds] += mesh::second_order(type);
     }
     for (const auto& face : mesh::faces(type)) {
       const Point area = area_vector(mesh, nodes, face);
@@ -245,8 +239,7 @@ void add_image(Patches& patches, Local corner, const Point& normal)
       for (int j = 0; j <= i; ++j) *entry++ += image(i, j);
     Eigen::Map<Polynomial<terms>> right(block + Parts::right);
     Polynomial<terms> stresses = change.lazyProduct(right);
-    for (int i = 0; i < terms; ++i)
-      stresses.row(i) = entries(mirror * tensor(stresses.row(i).transpose()) * mirror).transpose();
+    for (int i = 0; i < terms; ++i) stresses.row(i) = entries(mirror * tensor(stresses.row(i).transpose()) * mirror).transpose();
     right += stresses;
     block[Parts::seconds] *= 2;
     Eigen::Map<Point> area(block + Parts::areas);
@@ -260,6 +253,9 @@ Eigen::MatrixXd stresses_of(const mesh::Mesh& mesh, const Materials& materials, 
 {
   using Parts = Layout<terms>;
   constexpr double last_resort = 1e-9;  // weight of a patch at the border, of one round a node inside
+  constexpr double next_to_nothing = 1e-7;
+  // Of the few samples at the border: edges that are slightly curved determine what straight ones do not, by rounding nearly.
+  constexpr double little = 1e-3;
   const auto per_corner = static_cast<Eigen::Index>(blocks);
   const auto count = static_cast<std::size_t>(patches.sums.cols() * per_corner);
   std::vector<Polynomial<terms>> polynomial(count);
@@ -267,9 +263,10 @@ Eigen::MatrixXd stresses_of(const mesh::Mesh& mesh, const Materials& materials, 
   for (std::size_t i = 0; i < count; ++i) {
     const double* block = patches.sums.data() + i * Parts::width;
     constexpr int linear = terms == 3 || terms == 6 ? 3 : 4;
-    polynomial[i] = block[Parts::seconds] > 0 ? fit<terms, terms>(block) : fit<terms, linear>(block);
     const double* areas = block + Parts::areas;
     inside[i] = std::hypot(areas[0], areas[1], areas[2]) <= 1e-6 * areas[3];  // the faces round the node close
+    const double diagonal = inside[i] ? next_to_nothing : little;
+    polynomial[i] = block[Parts::seconds] > 0 ? fit<terms, terms>(block, diagonal) : fit<terms, linear>(block, diagonal);
   }
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(7 * per_corner, static_cast<Eigen::Index>(mesh.node_count()));
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
@@ -278,7 +275,7 @@ Eigen::MatrixXd stresses_of(const mesh::Mesh& mesh, const Materials& materials, 
     const auto type = mesh.cells.type[c];
     const auto corners = nodes.first(static_cast<std::size_t>(mesh::corner_count(type)));
     // One stress a cell tells nothing of how it varies across a layer of such cells, which have it in themselves.
-    const double at_border = second_order(type) || simplex(type) ? last_resort : 0;
+    const double at_border = mesh::second_order(type) || simplex(type) ? last_resort : 0;
     for (const Local n : nodes) {
       double* sum = sums.col(n).data() + 7 * k;
       const auto add = [&](double weight, std::size_t patch, const Point& place) {
@@ -324,7 +321,7 @@ auto for_terms(int terms, const Work& work)
 
 int largest_order(const mesh::Mesh& mesh)
 {
-  return std::any_of(mesh.cells.type.begin(), mesh.cells.type.end(), second_order) ? 2 : 1;
+  return std::any_of(mesh.cells.type.begin(), mesh.cells.type.end(), mesh::second_order) ? 2 : 1;
 }
 
 Patches patch_sums(const mesh::Mesh& mesh, const Constitution& constitution, Kinematics kinematics, const Eigen::VectorXd& u,
@@ -337,8 +334,7 @@ Patches patch_sums(const mesh::Mesh& mesh, const Constitution& constitution, Kin
 void add_mirror_image(Patches& patches, Local corner, const Point& normal, Kinematics kinematics)
 {
   const Local row = patches.row[static_cast<std::size_t>(corner)];
-  for_terms(term_count(patches.order, dimension(kinematics)),
-            [&](auto terms) { add_image<terms.value>(patches, row, normal); });
+  for_terms(term_count(patches.order, dimension(kinematics)), [&](auto terms) { add_image<terms.value>(patches, row, normal); });
 }
 
 Eigen::MatrixXd patch_stresses(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, const Patches& patches,

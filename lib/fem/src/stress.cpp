@@ -1,7 +1,9 @@
 #include "fem/stress.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "cell_stress.hpp"
 
@@ -147,6 +149,25 @@ Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& material
                   sum += squared_norm(cell, cell.volumes(), elasticity, nodal, all(nothing));
                 });
   return result;
+}
+
+Eigen::VectorXd squared_errors_of_bending(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
+                                          const Eigen::VectorXd& u, const Temperature& temperature_change)
+{
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.cells.size()));
+  const auto knows = [](mesh::CellType type) { return applies(Formulation::incompatible, type); };
+  if (kinematics == Kinematics::axisymmetric || !std::ranges::all_of(mesh.cells.type, knows)) return result;
+  for (const auto& [formulation, sign] : {std::pair(Formulation::standard, 1.0), std::pair(Formulation::incompatible, -1.0)})
+    for_each_cell(mesh, materials, kinematics, formulation, temperature_change, u,
+                  [&](std::size_t c, const CellGeometry& cell, const Stresses& stress, const Elasticity& elasticity) {
+                    for (Eigen::Index q = 0; q < stress.cols(); ++q) {
+                      const auto point = static_cast<std::size_t>(q);
+                      result[static_cast<Eigen::Index>(c)] +=
+                          sign * cell.volumes()[point] *
+                          elasticity.complementary(stress.col(q), place_for(elasticity, cell, point));
+                    }
+                  });
+  return result.cwiseMax(0.0);
 }
 
 }  // namespace mortise::fem

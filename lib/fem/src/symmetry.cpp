@@ -55,4 +55,9 @@ Stress symmetric_stress(const Stress& stress, std::span<const Point> normals)
   return entries(result + rest * s * rest);
 }
 
+Stress turned_stress(const Stress& stress, const Eigen::Matrix3d& rotation)
+{
+  return entries(rotation * tensor(stress) * rotation.transpose());
+}
+
 }  // namespace mortise::fem

@@ -47,6 +47,23 @@ TEST(Patches, ConstantStressIsExactAlsoInOneCell)
     }
 }
 
+// The few samples of a corner's cells are next to determine a polynomial of second order where edges are slightly curved.
+TEST(Patches, SlightlyCurvedEdgesChangeLittle)
+{
+  for (const std::string name : {"tet10", "prism15", "tri6", "hex20"}) {
+    Block block(name, {4, 3, 2}, {2, 1, 1});
+    const auto kinematics = block.dimension == 2 ? Kinematics::plane_strain : Kinematics::solid;
+    const auto error = [&] {
+      const auto u = sample(block.mesh, block.dimension,
+                            [](const Point& x) { return Point(x[0] * x[0] * x[1], std::sin(2 * x[0]), x[1] * x[2]); });
+      return squared_errors(block.mesh, steel(), kinematics, u, patch_means(block, {steel()}, kinematics, u)).sum();
+    };
+    const double straight = error();
+    for (auto& x : block.mesh.points) x[1] += 0.01 * std::sin(2 * x[0]) + 0.01 * (x[2] - 0.5) * (x[0] - 1);
+    EXPECT_NEAR(error(), straight, 0.2 * straight) << name;
+  }
+}
+
 // u = (x^2 / 2 + x y, -y^2, 0): cells of second order have it, and a stress that is linear, everywhere. The interpolant of first
 // order in bricks and rectangles has that stress in the middle of each.
 TEST(Patches, LinearStressIsExactUpToTheBorder)

@@ -45,9 +45,12 @@ TEST(Stress, SymmetricOnesAreMeansOfMirrorImages)
     return Point(q * Point(std::cos(angle), std::sin(angle), 0));
   };
   const Point up = q * Point(0, 0, 1);
-  for (const std::vector<Point>& normals :
-       {std::vector<Point>{at(20)}, {at(10), at(100)}, {at(10), up, at(100)}, {at(0), at(120)}, {up, at(30), at(165)},
-        {at(0), at(120), at(240)}}) {
+  for (const std::vector<Point>& normals : {std::vector<Point>{at(20)},
+                                            {at(10), at(100)},
+                                            {at(10), up, at(100)},
+                                            {at(0), at(120)},
+                                            {up, at(30), at(165)},
+                                            {at(0), at(120), at(240)}}) {
     std::vector<Eigen::Matrix3d> images{Eigen::Matrix3d::Identity()};
     for (std::size_t i = 0; i < images.size(); ++i)
       for (const Point& n : normals) {
@@ -197,6 +200,21 @@ TEST(Stress, IncompatibleModesHaveTheStressOfBending)
                (Stress() << 1000 * (block.mesh.points[n][1] - 0.5), 0, 0, 0, 0, 0).finished())
                   .norm(),
               1e-9);
+}
+
+// u = (x y, 0) at the corners of a cell a x b, y from its middle: standard cells have the strain y along x, with all that goes
+// across, and the shear x; modes leave E y alone.
+TEST(Stress, ErrorOfBendingIsWhatModesTakeAway)
+{
+  const double young = 1000, nu = 0.3, a = 2, b = 0.5;
+  const Block block("quad4", {1, 1, 0}, {a, b, 0});
+  const Material m{young, nu, 0, 0};
+  const auto u = sample(block.mesh, 2, [&](const Point& x) { return Point((x[0] - a / 2) * (x[1] - b / 2), 0, 0); });
+  const double across = young * nu * nu / (1 - nu * nu) * b * b / 12, shear = young / (2 * (1 + nu)) * a * a / 12;
+  EXPECT_NEAR(squared_errors_of_bending(block.mesh, m, Kinematics::plane_stress, u).sum(), (across + shear) * a * b,
+              1e-9 * young);
+  const auto stretched = sample(block.mesh, 2, [](const Point& x) { return Point(x[0], x[1], 0); });
+  EXPECT_LT(squared_errors_of_bending(block.mesh, m, Kinematics::plane_stress, stretched).sum(), 1e-9 * young);
 }
 
 // Stretched by 1 with free sides: E in plane stress; E / (1 - nu^2) and nu times that across the plane in plane strain.

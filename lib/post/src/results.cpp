@@ -64,9 +64,9 @@ double nothing_of_errors(const Rounding& rounding, double error)
   return std::max({rounding.energy, moved, rounding_of_motion * rounding.moved});
 }
 
-// Relative errors of the mesh and of the solver; `stored`: twice what springs store.
-void estimate_errors(const feti::DualSolution& solved, const Rounding& rounding, double stored, const Communicator& comm,
-                     Results& results)
+// Relative errors of the mesh and of the solver; `stored`: twice what springs store. Returns what the solver's are relative to.
+double estimate_errors(const feti::DualSolution& solved, const Rounding& rounding, double stored, const Communicator& comm,
+                       Results& results)
 {
   const auto& stress = results.stress;
   results.algebraic_error = solved.solution.error;
@@ -74,19 +74,21 @@ void estimate_errors(const feti::DualSolution& solved, const Rounding& rounding,
   for (const auto& contact : results.contact_errors) squared_error += contact.squared;
   const double squared_norm =
       std::max(2 * stress.strain_energy + squared_error, nothing_of_errors(rounding, solved.solution.error));
-  if (!(squared_norm > 0)) return;  // a state at rest is exact
-  results.algebraic_error /= std::sqrt(std::max(squared_norm, strained * stored));
+  if (!(squared_norm > 0)) return 0;  // a state at rest is exact
+  const double norm = std::sqrt(std::max(squared_norm, strained * stored));
+  results.algebraic_error /= norm;
   results.mesh_error = {std::sqrt(squared_error / squared_norm), largest_of_ranks(stress.worst_cell, comm), stress.body_error,
                         squared_norm};
   comm.sum_in_place(results.mesh_error.part);
   for (auto& part : results.mesh_error.part) part /= std::max(squared_error, 1e-300);
+  return norm;
 }
 
 }  // namespace
 
 Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, const Communicator& comm)
 {
-  const auto& [problem, system, pairs, solved, displacement, supports, tolerance, negligible, before, largest_force] =
+  const auto& [problem, system, pairs, solved, displacement, supports, tolerance, negligible, before, largest_force, slip_error] =
       equilibrium;
   const auto& lambda = solved.solution.x;
   const auto& nu = solved.solution.nu;
@@ -105,7 +107,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   results.stress = recover_stress(bodies, displacement, comm);
   results.contact = contact_results(problem, lambda, nu, solved.slip_bounds, displacement, pairs, largest_force);
   results.contact_errors = contact_errors(bodies, displacement, results.stress, pairs, results.contact.surfaces, comm);
-  estimate_errors(solved, rounding, stored, comm, results);
+  const double norm = estimate_errors(solved, rounding, stored, comm, results);
   if (bodies.kinematics != fem::Kinematics::axisymmetric)
     results.moments = contact_moments(problem, lambda, bodies.decomposition, bodies.kinematics, pairs, results.contact.states);
   results.reactions = reactions(problem, lambda, supports);
@@ -141,6 +143,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
       drift(bodies.decomposition, bodies.kinematics, sizes, displacement, prescribed(problem.constraints(), comm), comm);
   results.verdict = verdict(evidence);
   results.algebraic_error += problem.rounding();  // what the solver does not know
+  if (norm > 0) results.algebraic_error += slip_error / norm;
   return results;
 }
 

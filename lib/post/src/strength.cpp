@@ -271,7 +271,7 @@ std::vector<Warning> coarse_mesh(const MeshError& error, const std::vector<std::
     if (error.cells[b].value > error.cells[most].value) most = b;
   Warning w{"coarse_mesh",
             fmt::format(
-                "the mesh's error is about {:.2g} % in the energy norm, largest in body \"{}\" at {}, which has {:.2g} % of its "
+                "the mesh's error is about {:.2g} % in the energy norm, largest in body \"{}\" at {}, which has {:.0f} % of its "
                 "square: stresses may be off by as much and more",
                 100 * error.relative, bodies[most], spell(error.cells[most].at), 100 * error.part[most]),
             "make the cells smaller there, or take cells of second order"};

@@ -13,6 +13,9 @@ namespace mortise::post {
 
 namespace {
 
+// In one layer of cells of second order the error is about so many times what stresses recovered along it show: the median over
+// beams and plates, clamped and loaded in several ways.
+constexpr double unseen_in_a_layer = 2;
 constexpr double assumed_error = 0.01;  // of boundary elements, of their part of the solution, in the energy norm
 
 // Stresses averaged at the nodes of each body, material by material, and what they differ by from those of the cells.
@@ -44,11 +47,56 @@ Eigen::MatrixXd means(const Eigen::MatrixXd& sums, Eigen::MatrixXd otherwise = {
   return stress;
 }
 
+std::span<const SymmetricNode> mirrored(const ElasticBodies& bodies, std::size_t s)
+{
+  if (!bodies.symmetric || bodies.symmetric->mirrored.empty()) return {};
+  return bodies.symmetric->mirrored[s];
+}
+
+// Adds to sums over all copies, nodes x 7 blocks of each subdomain, those of the nodes that they are one with beyond a sector's
+// cut. Collective.
+void add_turned(const ElasticBodies& bodies, std::vector<Eigen::MatrixXd>& sums, const Communicator& comm)
+{
+  if (!bodies.symmetric || !comm.any(!bodies.symmetric->turned.empty())) return;
+  const auto& turned = bodies.symmetric->turned;
+  const auto& decomposition = bodies.decomposition;
+  struct Wanted {
+    Global subdomain;
+    Local node;
+    int body;  // which has these materials
+  };
+  std::vector<std::vector<Wanted>> wanted(static_cast<std::size_t>(comm.size()));
+  const auto rank_of = [&](const TurnedNode& at) { return static_cast<std::size_t>(decomposition.rank_of(at.subdomain)); };
+  for (std::size_t s = 0; s < turned.size(); ++s)
+    for (const auto& at : turned[s]) wanted[rank_of(at)].push_back({at.subdomain, at.other, decomposition.subdomains[s].body});
+  const Global first = decomposition.first[static_cast<std::size_t>(comm.rank())];
+  std::vector<std::vector<double>> answers;
+  for (const auto& part : comm.exchange(wanted)) {
+    auto& answer = answers.emplace_back();
+    for (const auto& at : part) {
+      const auto s = static_cast<std::size_t>(at.subdomain - first);
+      Eigen::RowVectorXd row = sums[s].row(at.node);
+      if (decomposition.subdomains[s].body != at.body) row.setZero();
+      answer.insert(answer.end(), row.begin(), row.end());
+    }
+  }
+  const auto found = comm.exchange(answers);
+  std::vector<std::size_t> next(found.size(), 0);
+  for (std::size_t s = 0; s < turned.size(); ++s)
+    for (const auto& at : turned[s]) {
+      auto& position = next[rank_of(at)];
+      for (Eigen::Index k = 0; k < sums[s].cols(); k += 7, position += 7) {
+        const Eigen::Map<const fem::Stress> other(found[rank_of(at)].data() + position);
+        sums[s].row(at.node).segment(k, 6) += fem::turned_stress(other, at.turn).transpose();
+        sums[s](at.node, k + 6) += found[rank_of(at)][position + 6];
+      }
+    }
+}
+
 // Makes the stress of nodes on planes of symmetry, nodes x 6 blocks of subdomain s, that of the whole body.
 void make_symmetric(const ElasticBodies& bodies, std::size_t s, Eigen::MatrixXd& stress)
 {
-  if (bodies.symmetric.empty()) return;
-  for (const auto& at : bodies.symmetric[s])
+  for (const auto& at : mirrored(bodies, s))
     for (Eigen::Index k = 0; k < stress.cols(); k += 6) {
       auto own = stress.row(at.node).segment(k, 6);
       own = fem::symmetric_stress(own.transpose(), at.normals).transpose();
@@ -58,8 +106,7 @@ void make_symmetric(const ElasticBodies& bodies, std::size_t s, Eigen::MatrixXd&
 // Goes on beyond planes of symmetry that are at right angles to each other.
 void mirror_patches(const ElasticBodies& bodies, std::size_t s, fem::Patches& patches)
 {
-  if (bodies.symmetric.empty()) return;
-  for (const auto& at : bodies.symmetric[s]) {
+  for (const auto& at : mirrored(bodies, s)) {
     if (patches.row[static_cast<std::size_t>(at.node)] < 0) continue;
     std::vector<Point> in_model;  // in plane models a turn about an axis is none
     for (const Point& n : at.normals)
@@ -110,7 +157,37 @@ std::vector<Eigen::MatrixXd> patch_sums(const ElasticBodies& bodies, const std::
                                         : fem::patch_stresses(subdomains[s].mesh, bodies.constitution[s].materials,
                                                               bodies.kinematics, patches[s], bodies.blocks));
   partition::sum_over_copies(bodies.decomposition, bodies.interface, result, comm);
+  add_turned(bodies, result, comm);
   return result;
+}
+
+// Whether a node that patches know lies inside the body (fem/patches.hpp) shares a cell with one of the nodes of this cell. If
+// none does, as in one layer of cells, recovered stresses are those of cells along the layer.
+bool near_inside(const Eigen::MatrixXd& patches, const mesh::Mesh& mesh, const fem::Materials& materials, std::size_t cell)
+{
+  constexpr double last_resort = 1e-3;  // patches at the border weigh much less
+  const auto weight = 7 * static_cast<Eigen::Index>(materials.index(cell)) + 6;
+  return std::ranges::any_of(mesh.cells[cell], [&](Local n) { return patches(n, weight) > last_resort; });
+}
+
+// Adds to the squared errors of the cells of subdomain s what recovered stresses do not show of them in one layer of cells.
+void add_unseen(const ElasticBodies& bodies, std::size_t s, const Eigen::VectorXd& displacement, const Eigen::MatrixXd& patches,
+                Eigen::VectorXd& squared)
+{
+  const auto& mesh = bodies.decomposition.subdomains[s].mesh;
+  const auto& own = bodies.constitution[s];
+  std::vector<std::size_t> layer;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    if (!near_inside(patches, mesh, own.materials, c)) layer.push_back(c);
+  if (layer.empty()) return;
+  Eigen::VectorXd of_bending = Eigen::VectorXd::Zero(squared.size());
+  if (own.formulation == fem::Formulation::standard)
+    of_bending = fem::squared_errors_of_bending(mesh, own.materials, bodies.kinematics, displacement, own.temperature_change);
+  for (const std::size_t c : layer) {
+    double& error = squared[static_cast<Eigen::Index>(c)];
+    if (mesh::second_order(mesh.cells.type[c])) error *= unseen_in_a_layer * unseen_in_a_layer;
+    error += of_bending[static_cast<Eigen::Index>(c)];
+  }
 }
 
 Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
@@ -143,6 +220,7 @@ Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd
     result.cell_von_mises.push_back(std::move(field.cell_von_mises));
   }
   partition::sum_over_copies(bodies.decomposition, bodies.interface, result.nodal, comm);
+  add_turned(bodies, result.nodal, comm);
   const auto patches = patch_sums(bodies, displacement, comm);
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     Eigen::MatrixXd stress = means(result.nodal[s]);
@@ -150,12 +228,14 @@ Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd
     const auto& mesh = subdomains[s].mesh;
     const auto body = static_cast<std::size_t>(subdomains[s].body);
     const auto& own = bodies.constitution[s];
-    const auto errors = [&] {
+    const auto errors = [&]() -> Eigen::VectorXd {
       if (subdomains[s].skin) return boundary_errors(bodies, s, boundary[s], stress);
       Eigen::MatrixXd of_patches = means(patches[s], stress);
       make_symmetric(bodies, s, of_patches);
-      return fem::squared_errors(mesh, own.materials, bodies.kinematics, displacement[s], of_patches, stress, own.formulation,
-                                 own.temperature_change);
+      Eigen::VectorXd squared = fem::squared_errors(mesh, own.materials, bodies.kinematics, displacement[s], of_patches, stress,
+                                                    own.formulation, own.temperature_change);
+      add_unseen(bodies, s, displacement[s], patches[s], squared);
+      return squared;
     }();
     result.squared_error += errors.sum();
     result.body_error[body] += errors.sum();
@@ -241,6 +321,7 @@ EnergyNorms energy_norms(const ElasticBodies& bodies, const std::vector<Eigen::V
     nodal.push_back(std::move(field.nodal_sums));
   }
   partition::sum_over_copies(bodies.decomposition, bodies.interface, nodal, comm);
+  add_turned(bodies, nodal, comm);
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     if (subdomains[s].skin) continue;
     Eigen::MatrixXd stress = means(nodal[s]);

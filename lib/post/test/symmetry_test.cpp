@@ -53,7 +53,7 @@ class Body {
       constitution_.push_back(own);
       auto& u = displacement.emplace_back(setting.dimension * static_cast<Eigen::Index>(s.mesh.node_count()));
       auto& before = places_.emplace_back(s.mesh.points);
-      auto& symmetric = symmetric_.emplace_back();
+      auto& symmetric = symmetric_.mirrored.emplace_back();
       for (std::size_t n = 0; n < before.size(); ++n) {
         const Point x = before[n];
         const double up = solid ? x[2] : 0.3;
@@ -78,7 +78,7 @@ class Body {
   ElasticBodies bodies(bool symmetric = true) const
   {
     ElasticBodies result{decomposition_, interface_, kinematics_, constitution_, 2};
-    if (symmetric) result.symmetric = symmetric_;
+    if (symmetric) result.symmetric = &symmetric_;
     return result;
   }
 
@@ -112,7 +112,7 @@ class Body {
   partition::Interface interface_;
   fem::Kinematics kinematics_ = fem::Kinematics::solid;
   std::vector<fem::Constitution> constitution_;
-  std::vector<std::vector<SymmetricNode>> symmetric_;
+  SymmetricNodes symmetric_;
 };
 
 void expect_stresses_of_the_whole(Setting setting)

@@ -14,14 +14,12 @@
 
 namespace mortise::analysis {
 
-/// Of each subdomain of this rank, see find_symmetric_nodes().
-using SymmetricNodes = std::vector<std::vector<post::SymmetricNode>>;
-
 /// How large things are in the load states so far, 0 in none: what the next one is measured by.
 struct Magnitudes {
   post::Rounding rounding;  ///< what counts as rounding
   double force = 0;         ///< ||B'lambda||, the largest
   double energy_norm = 0;   ///< what springs store included, the largest
+  double slip_error = 0;  ///< the solver's errors, in the energy norm, with which slip was counted, their sum; 0 without friction
 
   /// An energy norm that counts as none, see qp::Goal::negligible.
   double negligible() const { return 1e-8 * energy_norm; }
@@ -32,7 +30,7 @@ struct Magnitudes {
 /// A solved load state, from which the next one starts. A value.
 struct StepState {
   std::shared_ptr<const Rows> rows;
-  std::shared_ptr<const SymmetricNodes> symmetric;
+  std::shared_ptr<const post::SymmetricNodes> symmetric;
   feti::DualSolution solved;
   std::vector<Eigen::VectorXd> displacement;  ///< of each subdomain
   std::vector<double> shortenings;            ///< of the preloaded contacts, lengths
@@ -43,7 +41,7 @@ struct StepState {
 /// The dual problem of a load state, and the rows that it is of. Heavy: moves, does not copy.
 struct StepProblem {
   std::shared_ptr<const Rows> rows;
-  std::shared_ptr<const SymmetricNodes> symmetric;
+  std::shared_ptr<const post::SymmetricNodes> symmetric;
   std::unique_ptr<feti::DualProblem> dual;
 };
 
@@ -96,7 +94,7 @@ class LoadStepSolver {
   const Context& context_;
   const Approach approach_;
   std::shared_ptr<const Rows> rows_;  // of the problem
-  std::shared_ptr<const SymmetricNodes> symmetric_;
+  std::shared_ptr<const post::SymmetricNodes> symmetric_;
   std::unique_ptr<feti::DualProblem> problem_;
   std::optional<DualSolver> solver_;  // refers to the problem
   bool first_ = true;                 // no state has been solved yet

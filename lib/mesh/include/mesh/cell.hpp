@@ -43,6 +43,10 @@ int dimension(CellType type);          ///< 1 of lines, 2 of triangles and quadr
 int node_count(CellType type);         ///< nodes of a cell
 int corner_count(CellType type);       ///< nodes of the first-order cell of that shape
 CellType first_order(CellType type);   ///< hex8 for hex27
+inline bool second_order(CellType type)
+{
+  return type != first_order(type);
+}
 std::string_view name(CellType type);  ///< "hex8", as the deck spells it
 /// The type that the deck spells so; nothing if there is none.
 std::optional<CellType> cell_type(std::string_view name);

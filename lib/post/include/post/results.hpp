@@ -39,7 +39,8 @@ double largest_displacement(const std::vector<Eigen::VectorXd>& displacement, in
 
 /// A solved equilibrium. `displacement`: of each subdomain; `tolerance`: the deck's, 0 where it is auto; `negligible`: an energy
 /// norm that is nothing, see qp::Goal; `before`: the rounding of the states before, which is none in this one either;
-/// `largest_force`: of them, see contact_results().
+/// `largest_force`: of them, see contact_results(); `slip_error`: the solver's errors in them, from which friction goes on, added
+/// up, in the energy norm.
 struct Equilibrium {
   const feti::DualProblem& problem;
   const feti::SubdomainSystem& system;
@@ -51,6 +52,7 @@ struct Equilibrium {
   double negligible = 0;
   Rounding before;
   double largest_force = 0;
+  double slip_error = 0;
 };
 
 /// Evaluates, and changes nothing. Whether it is solved, and what to say if not, stands in the verdict. Collective.

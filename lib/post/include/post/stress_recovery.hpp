@@ -12,6 +12,8 @@
 // At nodes on planes of symmetry both are those of the whole body: cells beyond the plane have the mirror images of the stresses,
 // so that the shear across it cancels in averages (fem/symmetry.hpp), and patches go on in them (of planes at right angles).
 //
+// At nodes of a sector's cuts that match, both are means with those of the node that is one with it, turned.
+//
 // Of boundary elements stresses are known at the surface, panel by panel, and averaged in the same way.
 #pragma once
 
@@ -35,6 +37,21 @@ struct SymmetricNode {
   std::vector<Point> normals;
 };
 
+/// A node on the cut of a sector that is one with a node of its other cut, turned: u(node) = turn u(other).
+struct TurnedNode {
+  Local node;
+  Global subdomain;  ///< of one copy of the other node
+  Local other;
+  Eigen::Matrix3d turn;
+};
+
+/// Nodes at which a body goes on beyond what is meshed of it: of each subdomain of this rank, ascending; all copies of a node
+/// have the same.
+struct SymmetricNodes {
+  std::vector<std::vector<SymmetricNode>> mirrored;  ///< in planes; no subdomain if there are none on any rank
+  std::vector<std::vector<TurnedNode>> turned;       ///< in sectors; no subdomain if there are none on any rank
+};
+
 /// What the recovery works on. Refers to its parts.
 struct ElasticBodies {
   const partition::Decomposition& decomposition;
@@ -45,8 +62,7 @@ struct ElasticBodies {
   /// What subdomains of boundary elements need as well: what each is a copy of, and the operators.
   std::span<const partition::CopyOf> copies = {};
   std::span<const std::shared_ptr<const feti::SubdomainOperator>> operators = {};
-  /// Of each subdomain of this rank, ascending; all copies of a node have the same normals. None at all: empty.
-  std::span<const std::vector<SymmetricNode>> symmetric = {};
+  const SymmetricNodes* symmetric = nullptr;  ///< null, on all ranks: the body ends where its mesh does
 };
 
 /// What the inside of a subdomain of boundary elements follows from, less the particular solution: displacements (D n) and
