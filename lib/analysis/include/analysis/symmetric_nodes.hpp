@@ -9,8 +9,7 @@
 // - anything acts along the face itself: a load, a second support, a foundation, friction, a bond;
 // - a coupling takes part;
 // - the body reaches beyond the plane, or two such planes have more than a right angle between them: stress has no limit there,
-// or
-//   the surface is curved.
+//   or the surface is curved.
 //
 // Nodes of a sector's cuts are one with those of the other cut, turned, where the bond ties one to one. In axisymmetry the axis
 // is on all planes through it.
