@@ -37,25 +37,30 @@ Report::LoadSteps::LoadSteps(Report& report, const analysis::Assembly& assembly,
 {
 }
 
-void Report::LoadSteps::begin(const model::LoadState& acts)
+auto Report::LoadSteps::begin(const model::LoadState& acts, const std::optional<Written>& before) const -> Begun
 {
-  increment_ = ends_a_step(acts_) ? 1 : increment_ + 1;
-  acts_ = acts;
-  if (index_ == 0) first_state_began_ = MPI_Wtime();
-  const double each = index_ > 0 ? (MPI_Wtime() - first_state_began_) / static_cast<double>(index_) : 0;
-  print_state(acts, index_, states_, each * static_cast<double>(states_ - index_), context_.log);
-  ++index_;
+  Begun begun{acts};
+  double left = 0;
+  if (before) {
+    const auto& last = before->state;
+    begun.index = last.index + 1;
+    if (!ends_a_step(last.acts)) begun.increment = last.increment + 1;
+    const double each = (MPI_Wtime() - began_) / static_cast<double>(last.index);
+    left = each * static_cast<double>(states_ - last.index);
+  }
+  print_state(acts, begun.index - 1, states_, left, context_.log);
+  return begun;
 }
 
-analysis::Observer Report::LoadSteps::observer()
+analysis::Observer Report::LoadSteps::observer(const Begun& begun)
 {
-  return [this, acts = acts_](int step, double change, const qp::Progress& p) { run_.history_.note(acts, step, change, p); };
+  return [this, acts = begun.acts](int step, double change, const qp::Progress& p) { run_.history_.note(acts, step, change, p); };
 }
 
-// Whether the fields of the present state are to be written.
-bool Report::LoadSteps::is_due(bool converged) const
+// Whether the fields of the state are to be written.
+bool Report::LoadSteps::is_due(const Begun& begun, bool converged) const
 {
-  return ends_a_step(acts_) || !converged || increment_ % deck_.output.every == 0;
+  return ends_a_step(begun.acts) || !converged || begun.increment % deck_.output.every == 0;
 }
 
 bool Report::LoadSteps::gave_up(const analysis::LoadStepSolver& solver, const analysis::StepState& state)
@@ -68,75 +73,81 @@ bool Report::LoadSteps::gave_up(const analysis::LoadStepSolver& solver, const an
   return true;
 }
 
-void Report::LoadSteps::write(const analysis::LoadStepSolver& solver, const analysis::StepState& state,
-                              const post::Probes& probes, post::Results results)
+auto Report::LoadSteps::write(const Begun& begun, const analysis::LoadStepSolver& solver, const analysis::StepState& state,
+                              const post::Probes& probes, post::Results results, const std::optional<Written>& before) -> Written
 {
   const auto& comm = context_.comm;
   const auto& model = assembly_.model();
   const output::EvaluatedState found{model.decomposition(), assembly_.interface(), solver.problem(), state, probes, results};
-  const bool first = !last_;
+  const bool first = !before;
   auto summary = output::summarise(model, found, comm);
   summary.version = MORTISE_VERSION;
   summary.algorithm = approach_.algorithm == "auto" ? "face_newton" : approach_.algorithm;
   if (approach_.takes_bodies_whole() && run_.sizes_as_cut_.subdomains > 0) output::copy_sizes(run_.sizes_as_cut_, summary);
   if (first) summary.hessian_multiplications += approach_.spent;
-  output::accumulate_steps(acts_, last_ ? last_->summary : io::Summary{}, summary);
+  output::accumulate_steps(begun.acts, before ? before->summary : io::Summary{}, summary);
   run_.warnings_.add(analysis::check_results(model, state, results, comm));
   {
     const auto scope = context_.timers.scope("output");
-    files_.write(found, is_due(summary.converged), index_ == states_ || !summary.converged, comm);
-    probe_files_.write(model.decomposition().catalogue, acts_, probes, results, summary.probes, comm);
+    files_.write(found, is_due(begun, summary.converged), begun.index == states_ || !summary.converged, comm);
+    probe_files_.write(model.decomposition().catalogue, begun.acts, probes, results, summary.probes, comm);
     collectively(comm, [&] {
       if (!comm.root()) return;
       io::write_text(deck_.output.directory + "/history.csv", run_.history_.text());
       if (first) io::write_text(deck_.output.directory + "/deck.yaml", io::written_mark() + "\n" + write_deck(deck_));
     });
   }
-  last_ = Written{std::move(summary), std::move(results)};  // now that what it tells is on the disk
   run_.state_is_written_ = true;
   run_.tell_stage("output", "output");  // does not end the run: a state that is written is to be kept for --resume
-  if (index_ < states_) restart_.keep(index_, approach_, solver, state);
+  return {begun, std::move(summary), std::move(results)};
 }
 
-analysis::Outcome Report::LoadSteps::failed(const analysis::LoadStepSolver& solver)
+void Report::LoadSteps::keep(const Written& written, const analysis::LoadStepSolver& solver,
+                             const analysis::StepState& state) const
+{
+  if (written.state.index < states_) restart_.keep(written.state.index, approach_, solver, state);
+}
+
+analysis::Outcome Report::LoadSteps::failed(const Begun& begun, const analysis::LoadStepSolver& solver,
+                                            std::optional<Written>& before) const
 {
   try {
     return analysis::failed(approach_, solver.applications(), context_.comm);
   } catch (const Error& error) {
-    fail(error);
+    fail(error, begun, before);
   }
 }
 
-void Report::LoadSteps::fail(const Error& error)
+void Report::LoadSteps::fail(const Error& error, const Begun& begun, std::optional<Written>& before) const
 {
   context_.log.end_progress();
-  if (!last_) throw error;
-  last_->summary.converged = false;
-  last_->summary.exit_status = static_cast<int>(error.status());
+  if (!before) throw error;
+  before->summary.converged = false;
+  before->summary.exit_status = static_cast<int>(error.status());
   try {
-    write_summary(true);
+    write_summary(before->summary, true);
   } catch (const Error&) {  // the one on the disk says that the run is not finished
   }
-  throw Error(error.status(), fmt::format("step {}, time {:.4g}: {}\nThe results of the states before are written.", acts_.step,
-                                          acts_.time, error.what()));
+  throw Error(error.status(), fmt::format("step {}, time {:.4g}: {}\nThe results of the states before are written.",
+                                          begun.acts.step, begun.acts.time, error.what()));
 }
 
-bool Report::LoadSteps::goes_on()
+bool Report::LoadSteps::goes_on(Written& last) const
 {
-  if (index_ == states_) return false;
-  if (!last_->summary.converged) {
-    context_.log.line("Step {} did not converge; the {} states after it are not solved.", acts_.step, states_ - index_);
+  if (last.state.index == states_) return false;
+  if (!last.summary.converged) {
+    context_.log.line("Step {} did not converge; the {} states after it are not solved.", last.state.acts.step,
+                      states_ - last.state.index);
     return false;
   }
-  print_step(last_->summary, context_.log);
-  write_summary(false);
+  print_step(last.summary, context_.log);
+  write_summary(last.summary, false);
   return true;
 }
 
-void Report::LoadSteps::write_summary(bool finished)
+void Report::LoadSteps::write_summary(io::Summary& summary, bool finished) const
 {
   const auto& comm = context_.comm;
-  auto& summary = last_->summary;
   summary.finished = finished;
   summary.warnings = run_.warnings_.all();
   summary.time["total"] = comm.max(MPI_Wtime() - run_.start_);
@@ -146,14 +157,15 @@ void Report::LoadSteps::write_summary(bool finished)
   });
 }
 
-ExitStatus Report::LoadSteps::end()
+ExitStatus Report::LoadSteps::end(Written& last) const
 {
   auto& [comm, log, timers] = context_;
-  auto& [summary, results] = *last_;
+  auto& summary = last.summary;
+  const auto& results = last.results;
   output::note_communication(timers, traffic() - run_.before_all_, comm, summary);
   const auto spreads = timers.spread(comm);
   for (const auto& spread : spreads) summary.time[spread.stage] = spread.max;
-  write_summary(true);
+  write_summary(summary, true);
   print_results(results, summary, log);
   print_probes(summary, log);
   log.line("  time and memory     {:.2f} s, {:.2f} GB; results in {}", summary.time["total"], summary.peak_memory_bytes / 1e9,

@@ -34,19 +34,23 @@ analysis::Outcome solve_load_steps(const model::Model& model, const post::Probes
 
   Report::LoadSteps steps(report, assembly, states.size(), approach, restart);
   std::optional<analysis::StepState> state;
+  std::optional<Report::LoadSteps::Written> written;
   for (const auto& acts : states) {
-    steps.begin(acts);
+    const auto begun = steps.begin(acts, written);
     try {
       const auto* record = restart.find(approach, acts.time);  // of a run that this one resumes
-      state = record ? solver.take_up(acts, std::move(state), *record) : solver.solve(acts, std::move(state), steps.observer());
+      state =
+          record ? solver.take_up(acts, std::move(state), *record) : solver.solve(acts, std::move(state), steps.observer(begun));
       if (steps.gave_up(solver, *state)) return solver.given_up(*state);
-      steps.write(solver, *state, probes, analysis::evaluate(assembly, solver, *state, probes, context));
+      auto results = analysis::evaluate(assembly, solver, *state, probes, context);
+      written = steps.write(begun, solver, *state, probes, std::move(results), written);
+      steps.keep(*written, solver, *state);
     } catch (...) {
-      return steps.failed(solver);
+      return steps.failed(begun, solver, written);
     }
-    if (!steps.goes_on()) break;
+    if (!steps.goes_on(*written)) break;
   }
-  return {steps.end()};
+  return {steps.end(*written)};
 }
 
 ExitStatus solve(const CommandLine& command_line, const Context& context)

@@ -17,9 +17,9 @@
 
 namespace mortise {
 
-/// Lines on the terminal and files, as the stages of the method end, in the order of the functions below; what the load steps of
-/// an approach leave is told by Report::LoadSteps (load_steps.hpp). All are collective. Refers to its arguments. Neither copies
-/// nor moves.
+/// Lines on the terminal and files, as the stages of the method end: a function for each stage, which takes what the stage made
+/// and asks for none of the others. What the load steps of an approach leave is told by Report::LoadSteps (load_steps.hpp). All
+/// are collective. Refers to its arguments. Neither copies nor moves.
 class Report {
  public:
   class LoadSteps;

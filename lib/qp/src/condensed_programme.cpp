@@ -19,12 +19,16 @@ using Eigen::VectorXd;
 
 CondensedProgramme::CondensedProgramme(const CondensedMatrices& matrices, const Eigen::LLT<Eigen::MatrixXd>& factor_of_w,
                                        FeasibleSet set, VectorXd b, VectorXd e)
-    : CondensedProgramme(std::make_unique<DenseSystem>(matrices, factor_of_w), std::move(set), std::move(b), std::move(e))
+    : CondensedProgramme(std::make_unique<DenseSystem>(matrices, factor_of_w, set), set, std::move(b), std::move(e))
 {
 }
 
 CondensedProgramme::CondensedProgramme(std::unique_ptr<ContactSystem> system, FeasibleSet set, VectorXd b, VectorXd e)
-    : system_(std::move(system)), set_(std::move(set)), b_(std::move(b)), e_(std::move(e)), own_(system_->own())
+    : system_(std::move(system)),
+      set_(std::move(set)),
+      b_(std::move(b)),
+      e_(std::move(e)),
+      own_(shared_by_discs(system_->own(), set_))
 {
   std::vector<int> bound_at(static_cast<std::size_t>(unknowns()), -1);
   const auto bounds = set_.bounds();
@@ -32,10 +36,8 @@ CondensedProgramme::CondensedProgramme(std::unique_ptr<ContactSystem> system, Fe
   for (const auto& disc : set_.discs()) {
     const bool follows = disc.coefficient > 0 && disc.normal >= 0;
     bound_of_.push_back(follows ? bound_at[static_cast<std::size_t>(disc.normal)] : -1);
-    if (disc.size() == 2) own_[disc.index[0]] = own_[disc.index[1]] = std::max(own_[disc.index[0]], own_[disc.index[1]]);
   }
   soften(0);
-  system_->begin(own_, guess_of(all_closed()).moves);
 }
 
 void CondensedProgramme::soften(double softness, double scale)

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "qp/feasible_set.hpp"
 
 namespace mortise::qp {
 
@@ -22,8 +23,8 @@ struct Move {
   double curvature = 0;
 };
 
-/// The linear problem of one guess: x = base + T a with E'(W x + softening x + H'nu - b) + curvatures a = 0, H x - C nu = e; T and
-/// E hold trial and test directions of the moves as columns.
+/// The linear problem of one guess: x = base + T a with E'(W x + softening x + H'nu - b) + curvatures a = 0, H x - C nu = e; T
+/// and E hold trial and test directions of the moves as columns.
 struct Guess {
   std::vector<Move> moves;
   bool symmetric;  ///< trial and test are alike
@@ -47,6 +48,12 @@ class PathFactor {
   virtual Step solve(const Eigen::VectorXd& forces, const Eigen::VectorXd& lack, bool roughly) const = 0;
 };
 
+/// Compliances of unknowns, with one for both of a disc: the larger.
+Eigen::VectorXd shared_by_discs(Eigen::VectorXd own, const FeasibleSet& set);
+
+/// The moves of closed contact that sticks: each unknown of the bounds and of the discs alone, in this order.
+std::vector<Move> moves_of_closed(const FeasibleSet& set);
+
 class ContactSystem {
  public:
   virtual ~ContactSystem() = default;
@@ -69,9 +76,7 @@ class ContactSystem {
   virtual Eigen::VectorXd size_of_give(const Eigen::VectorXd& x) const = 0;
   virtual double square_of_rounding(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const = 0;
 
-  /// Before all that follows: by which compliances motions are measured, and the moves of closed contact that sticks.
-  virtual void begin(const Eigen::VectorXd& compliances, std::vector<Move> closed) = 0;
-  /// l'(C + H D^-1 H')^-1 l, D the compliances, or about so much.
+  /// l'(C + H D^-1 H')^-1 l, D the compliances of shared_by_discs(), or about so much.
   virtual double square(const Eigen::VectorXd& l) const = 0;
   /// The solution of a guess; x and nu come in as a start, near which motions that nothing holds stay.
   virtual void solve(const Guess& guess, const Eigen::VectorXd& b, const Eigen::VectorXd& e, Eigen::VectorXd& x,

@@ -72,12 +72,15 @@ MatrixXd solve(const Eigen::LLT<MatrixXd>& factor, MatrixXd b)
   return b;
 }
 
-void DenseSystem::begin(const VectorXd& compliances, std::vector<Move> closed)
+DenseSystem::DenseSystem(const CondensedMatrices& matrices, const Eigen::LLT<MatrixXd>& factor_of_w, const FeasibleSet& set)
+    : matrices_(matrices), factor_of_w_(factor_of_w)
 {
+  const VectorXd compliances = shared_by_discs(matrices.own, set);
   MatrixXd gram = matrices_.c + matrices_.h * compliances.cwiseInverse().asDiagonal() * matrices_.h.transpose();
   springs_ = spring * gram.diagonal();
   if (motions() > 0) gram_ = factorize(gram);
   if (unknowns() < many) return;
+  auto closed = moves_of_closed(set);
   std::vector<Local> order;
   for (const auto& move : closed) order.push_back(move.index[0]);
   factor_.emplace(std::move(closed), [&factor_of_w = factor_of_w_, order](const MatrixXd& right) {

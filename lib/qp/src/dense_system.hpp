@@ -38,11 +38,8 @@ Eigen::MatrixXd solve(const Eigen::LLT<Eigen::MatrixXd>& factor, Eigen::MatrixXd
 /// Factors of one guess serve the next ones where there are many unknowns.
 class DenseSystem : public ContactSystem {
  public:
-  /// Both outlive it.
-  DenseSystem(const CondensedMatrices& matrices, const Eigen::LLT<Eigen::MatrixXd>& factor_of_w)
-      : matrices_(matrices), factor_of_w_(factor_of_w)
-  {
-  }
+  /// Both outlive it. `set`: over the unknowns of the matrices.
+  DenseSystem(const CondensedMatrices& matrices, const Eigen::LLT<Eigen::MatrixXd>& factor_of_w, const FeasibleSet& set);
 
   Eigen::Index unknowns() const override { return matrices_.w.rows(); }
   Eigen::Index motions() const override { return matrices_.h.rows(); }
@@ -63,7 +60,6 @@ class DenseSystem : public ContactSystem {
   Eigen::VectorXd size_of_give(const Eigen::VectorXd& x) const override { return matrices_.w.cwiseAbs() * x.cwiseAbs(); }
   double square_of_rounding(const Eigen::VectorXd&, const Eigen::VectorXd&) const override { return 0; }
 
-  void begin(const Eigen::VectorXd& compliances, std::vector<Move> closed) override;
   double square(const Eigen::VectorXd& l) const override { return l.dot(gram_.solve(l)); }
   void solve(const Guess& guess, const Eigen::VectorXd& b, const Eigen::VectorXd& e, Eigen::VectorXd& x,
              Eigen::VectorXd& nu) override;
@@ -75,7 +71,7 @@ class DenseSystem : public ContactSystem {
 
   const CondensedMatrices& matrices_;
   const Eigen::LLT<Eigen::MatrixXd>& factor_of_w_;
-  Eigen::VectorXd springs_;
+  Eigen::VectorXd springs_;           // on motions
   Eigen::LLT<Eigen::MatrixXd> gram_;  // by which a lack of H x - C nu is measured
   std::optional<MoveFactor> factor_;  // of an earlier guess
 };

@@ -104,6 +104,7 @@ SparseSystem::SparseSystem(const SparseMatrices& matrices, const FeasibleSet& se
   for (int row = 0; row < matrices.b.rows(); ++row)
     for (decltype(matrices_.b)::InnerIterator it(matrices_.b, row); it; ++it)
       own_[row] += it.value() * it.value() / diagonal_[it.col()];
+  own_ = shared_by_discs(std::move(own_), set);
 }
 
 double SparseSystem::largest_ratio() const

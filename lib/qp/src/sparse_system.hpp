@@ -18,7 +18,9 @@
 
 namespace mortise::qp {
 
-/// K + B'Z B for one Z after another, Z in blocks of unknowns that belong together. Heavy: moves, does not copy.
+/// K + B'Z B for one Z after another, Z in blocks of unknowns that belong together. The factor is that of the last Z, no object of
+/// its own: all of them share one analysis of the pattern and its memory, the largest of a direct solution. Heavy: moves, does not
+/// copy.
 class JoinedStiffness {
  public:
   /// One block: its unknowns.
@@ -81,7 +83,6 @@ class SparseSystem : public ContactSystem {
   Eigen::VectorXd size_of_give(const Eigen::VectorXd& x) const override { return matrices_.s.cwiseProduct(x.cwiseAbs()); }
   double square_of_rounding(const Eigen::VectorXd& x, const Eigen::VectorXd& u) const override;
 
-  void begin(const Eigen::VectorXd& compliances, std::vector<Move> /*closed*/) override { own_ = compliances; }
   /// By the diagonal of K.
   double square(const Eigen::VectorXd& l) const override { return l.dot(l.cwiseQuotient(diagonal_)); }
   void solve(const Guess& guess, const Eigen::VectorXd& b, const Eigen::VectorXd& e, Eigen::VectorXd& x,

@@ -2,20 +2,20 @@
 // another contact. Where bonds share secondary nodes each of these belongs to one of them.
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "rows/across_bonds.hpp"
 #include "rows/by_node.hpp"
-#include "rows/contact_builder.hpp"
+#include "rows/contact_rows.hpp"
 
 namespace mortise::contact {
 
 namespace {
 
-// A contact at work.
+// An integrated contact, and the share of its faces that it refers to.
 struct Work {
-  Share share;
-  OthersNodes others;
-  std::unique_ptr<ContactBuilder> builder;
+  std::unique_ptr<Share> share;
+  IntegratedContact contact;
 };
 
 // One contact after the other, and what all of them ask for.
@@ -45,7 +45,7 @@ class OneByOne {
       if (pairs_[c].options.law == Law::bonded)
         bonds.push_back(c);
       else
-        add(*integrate(pairs_[c], c)->builder, c);
+        add(work_on(pairs_[c], c), {}, c);
     if (bonds.empty()) return std::move(contacts_);
     join_across_bonds(pairs_, contacts_, comm_);
     add_bonds(bonds);
@@ -53,22 +53,28 @@ class OneByOne {
   }
 
  private:
-  std::unique_ptr<Work> integrate(const Pair& pair, std::size_t c) const
+  Work work_on(const Pair& pair, std::size_t c) const
   {
-    auto work = std::make_unique<Work>(Work{share_out(pair, sizes_[c], kinematics_, comm_), {}, nullptr});
-    work->builder = std::make_unique<ContactBuilder>(pair.options, work->share, sizes_[c].reach, static_cast<int>(c), directory_,
-                                                     at_bonds_, work->others, curved_, kinematics_, comm_);
-    work->builder->integrate(comm_);
-    return work;
+    auto share = std::make_unique<Share>(share_out(pair, sizes_[c], kinematics_, comm_));
+    auto sides = std::make_unique<OpposedSides>(pair.options, *share, sizes_[c].reach, static_cast<int>(c), directory_, at_bonds_,
+                                                kinematics_, comm_);
+    return {std::move(share), integrate(std::move(sides), comm_)};
   }
 
-  void add(ContactBuilder& builder, std::size_t c)
+  RowsFound add_rows_of(Work work, const OthersNodes& others, std::size_t c, constraint::Contacts& contacts) const
   {
-    builder.set_lengths(touching_gap(sizes_[c].extent, sizes_[c].secondary_face), sizes_[c].secondary_face);
-    builder.add_rows(contacts_, directory_);
-    if (initial_gaps_) (*initial_gaps_)[c] = over_ranks(builder.initial_gap(), comm_);
-    if (pairs_[c].options.cyclic) check_cuts(c, over_ranks(builder.fit(), comm_));
-    builder.conflicts().refuse(pairs_[c].options, sizes_[c].reach, comm_);
+    InitialGap gap;
+    gap.touching = touching_gap(sizes_[c].extent, sizes_[c].secondary_face);
+    gap.face = sizes_[c].secondary_face;
+    return add_rows(std::move(work.contact), others, gap, directory_, curved_, contacts, comm_);
+  }
+
+  void add(Work work, const OthersNodes& others, std::size_t c)
+  {
+    const auto found = add_rows_of(std::move(work), others, c, contacts_);
+    if (initial_gaps_) (*initial_gaps_)[c] = over_ranks(found.initial_gap, comm_);
+    if (pairs_[c].options.cyclic) check_cuts(c, over_ranks(found.fit, comm_));
+    found.conflicts.refuse(pairs_[c].options, sizes_[c].reach, comm_);
   }
 
   // All of them are integrated before the first has rows. Lists of nodes are those of this rank's by number, not by place; see
@@ -78,25 +84,24 @@ class OneByOne {
     std::vector<NodeOfBond> unbonded, sides;
     std::vector<CoveredNode> covered;
     for (const auto& node : contacts_.nodes) unbonded.push_back({node.node});
-    std::vector<std::unique_ptr<Work>> works;
+    std::vector<Work> works;
     for (const std::size_t c : bonds) {
-      works.push_back(integrate(pairs_[c], c));
-      const auto& share = works.back()->share;
+      works.push_back(work_on(pairs_[c], c));
+      const auto& share = *works.back().share;
       for (const auto* side : {&share.secondary, &share.primary})
         for (const Global node : side->node_id) sides.push_back({node, static_cast<int>(c)});
-      const auto nodes = works.back()->builder->covered_nodes();
+      const auto nodes = covered_nodes(works.back().contact);
       covered.insert(covered.end(), nodes.begin(), nodes.end());
     }
     unbonded = by_node<NodeOfBond>(unbonded, comm_);
     const auto others = nodes_of_others(by_node<CoveredNode>(covered, comm_), by_node<NodeOfBond>(sides, comm_), comm_);
     for (std::size_t b = 0; b < bonds.size(); ++b) {
-      auto& work = *works[b];
-      const auto asked = ask(work.share.secondary.node_id, comm_);
-      for (const auto& node : answer(unbonded, asked, comm_)) work.others.of_contacts.push_back(node.node);
+      const auto asked = ask(works[b].share->secondary.node_id, comm_);
+      OthersNodes here;
+      for (const auto& node : answer(unbonded, asked, comm_)) here.of_contacts.push_back(node.node);
       for (const auto& node : answer(others, asked, comm_))
-        if (node.bond == static_cast<int>(bonds[b])) work.others.of_bonds.push_back(node.node);
-      add(*work.builder, bonds[b]);
-      works[b].reset();
+        if (node.bond == static_cast<int>(bonds[b])) here.of_bonds.push_back(node.node);
+      add(std::move(works[b]), here, bonds[b]);
     }
   }
 
@@ -106,10 +111,9 @@ class OneByOne {
     if (pairs_[c].options.law == Law::bonded) return require_one_surface(pairs_[c], sizes_[c], fit, comm_);
     if (!may_be_turned_wrongly(pairs_[c], sizes_[c], fit)) return;
     const Pair other = turned_back(pairs_[c]);
-    const auto work = integrate(other, c);
     constraint::Contacts tried;
-    work->builder->add_rows(tried, directory_);
-    require_this_way(pairs_[c], sizes_[c], fit, over_ranks(work->builder->fit(), comm_));
+    const auto found = add_rows_of(work_on(other, c), {}, c, tried);
+    require_this_way(pairs_[c], sizes_[c], fit, over_ranks(found.fit, comm_));
   }
 
   std::span<const Pair> pairs_;

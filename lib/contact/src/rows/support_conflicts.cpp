@@ -148,7 +148,7 @@ void SupportConflicts::note_crossing(std::span<const Term> terms, double d, cons
   for (const auto& tangent : directions.tangents) square += std::pow(writer_.prescribed_part(terms, d, tangent), 2);
   if (!stranded && !(into > along * std::sqrt(square))) return;
   const double crossing = into - (stranded ? gap : std::max(gap, 0.0));
-  if (crossing > crossing_ && crossing > of_interpolation(terms, d, normal)) crossing_ = crossing;
+  if (crossing > found_.crossing && crossing > of_interpolation(terms, d, normal)) found_.crossing = crossing;
 }
 
 void SupportConflicts::note_tear(std::span<const Term> terms, double d, const Point& normal)
@@ -156,7 +156,7 @@ void SupportConflicts::note_tear(std::span<const Term> terms, double d, const Po
   const auto note = [&](const Point& direction) {
     if (writer_.moves(terms, d, direction)) return;
     const double tear = std::abs(writer_.prescribed_part(terms, d, direction));
-    if (tear > tear_ && tear > of_interpolation(terms, d, direction)) tear_ = tear;
+    if (tear > found_.tear && tear > of_interpolation(terms, d, direction)) found_.tear = tear;
   };
   note(normal);
   for (const auto& tangent : directions(normal, {false, false, false}, {}, dimension_).tangents) note(tangent);
@@ -203,18 +203,18 @@ void SupportConflicts::note_prescribed_tear(Local node, const Point& normal, con
     const double own = writer_.prescribed_part(std::span(terms).first(1), 1, direction),
                  other = writer_.prescribed_part(std::span(terms).subspan(1), 1, direction);
     const double tear = std::abs(own + other);
-    if (tear > tear_ && tear > of_normals * std::max(std::abs(own), std::abs(other)) &&
+    if (tear > found_.tear && tear > of_normals * std::max(std::abs(own), std::abs(other)) &&
         tear > of_interpolation(terms, 1, direction))
-      tear_ = tear;
+      found_.tear = tear;
   };
   note(normal);
   for (const auto& tangent : directions(normal, {false, false, false}, {}, dimension_).tangents) note(tangent);
 }
 
-void SupportConflicts::refuse(const Options& options, double reach, const Communicator& comm) const
+void Conflicts::refuse(const Options& options, double reach, const Communicator& comm) const
 {
-  if (const double crossing = comm.max(crossing_); crossing > 1e-9 * reach) refuse_crossing(options, crossing);
-  if (const double tear = comm.max(tear_); tear > 1e-9 * reach) refuse_tear(options, tear);
+  if (const double most = comm.max(crossing); most > 1e-9 * reach) refuse_crossing(options, most);
+  if (const double most = comm.max(tear); most > 1e-9 * reach) refuse_tear(options, most);
 }
 
 }  // namespace mortise::contact

@@ -13,6 +13,15 @@
 
 namespace mortise::contact {
 
+/// How far they do, at most.
+struct Conflicts {
+  double crossing = 0, tear = 0;
+
+  /// Throws Error(bad_input) if, on any rank, supports alone push the two sides into each other, or those of a bond apart, by
+  /// more than rounding of `reach`. Collective.
+  void refuse(const Options& options, double reach, const Communicator& comm) const;
+};
+
 class SupportConflicts {
  public:
   /// All of which must outlive it. `dimension`: 2 or 3.
@@ -34,9 +43,8 @@ class SupportConflicts {
   /// if they hold these along a direction.
   void note_prescribed_tear(Local node, const Point& normal, const Opposite& opposite);
 
-  /// Throws Error(bad_input) if, on any rank, supports alone push the two sides into each other, or those of a bond apart, by
-  /// more than rounding of `reach`. Collective.
-  void refuse(const Options& options, double reach, const Communicator& comm) const;
+  /// Of what has been noted.
+  const Conflicts& found() const { return found_; }
 
  private:
   std::vector<Term> terms_of(Local node, const Opposite& opposite) const;
@@ -51,7 +59,7 @@ class SupportConflicts {
   RowWriter& writer_;
   int dimension_;
   std::array<std::vector<std::vector<Local>>, 2> faces_round_;  // of each node of a side, once one is asked
-  double crossing_ = 0, tear_ = 0;
+  Conflicts found_;
 };
 
 }  // namespace mortise::contact
