@@ -1,5 +1,6 @@
 #include "analysis/carried_contact.hpp"
 
+#include <array>
 #include <vector>
 
 #include "same_nodes.hpp"
@@ -22,26 +23,68 @@ CarriedContact::CarriedContact(const feti::DualProblem& problem, const qp::Solut
   }
 }
 
-CarriedContact CarriedContact::of_all_ranks(const Communicator& comm) const
+namespace {
+
+// A contact node on its way to another rank.
+struct Sent {
+  int contact, place;
+  Global node;
+  std::array<double, 8> values;
+};
+
+std::size_t rank_of(Global node, const Communicator& comm)
 {
-  struct Sent {
+  return static_cast<std::size_t>(node) % static_cast<std::size_t>(comm.size());
+}
+
+}  // namespace
+
+// Sends nodes, as lists of those for each rank, and returns those that have come.
+CarriedContact CarriedContact::exchange(const std::vector<std::vector<NodeKey>>& to, const Communicator& comm) const
+{
+  std::vector<std::vector<Sent>> send(to.size());
+  for (std::size_t rank = 0; rank < to.size(); ++rank)
+    for (const auto& key : to[rank]) {
+      const auto& [contact, node, place] = key;
+      const auto& [f, g] = nodes_.at(key);
+      send[rank].push_back({contact,
+                            place,
+                            node,
+                            {f.normal, f.tangential[0], f.tangential[1], f.tangential[2], g.normal, g.tangential[0],
+                             g.tangential[1], g.tangential[2]}});
+    }
+  CarriedContact result;
+  for (const auto& part : comm.exchange(send))
+    for (const auto& [contact, place, node, v] : part)
+      result.nodes_[{contact, node, place}] = {{v[0], {v[1], v[2], v[3]}}, {v[4], {v[5], v[6], v[7]}}};
+  return result;
+}
+
+CarriedContact CarriedContact::spread(const Communicator& comm) const
+{
+  std::vector<std::vector<NodeKey>> to(static_cast<std::size_t>(comm.size()));
+  for (const auto& [key, node] : nodes_) to[rank_of(std::get<1>(key), comm)].push_back(key);
+  return exchange(to, comm);
+}
+
+CarriedContact CarriedContact::at(const constraint::Contacts& contacts, const Communicator& comm) const
+{
+  struct Asked {
     int contact, place;
     Global node;
-    std::array<double, 8> values;
   };
-  std::vector<Sent> own;
-  for (const auto& [key, node] : nodes_) {
-    const auto &f = node.force, &g = node.gap;
-    own.push_back({std::get<0>(key),
-                   std::get<2>(key),
-                   std::get<1>(key),
-                   {f.normal, f.tangential[0], f.tangential[1], f.tangential[2], g.normal, g.tangential[0], g.tangential[1],
-                    g.tangential[2]}});
+  std::vector<std::vector<Asked>> ask(static_cast<std::size_t>(comm.size()));
+  for (const auto& [key, i] : index(contacts)) {
+    const auto& [contact, node, place] = key;
+    ask[rank_of(node, comm)].push_back({contact, place, node});
   }
-  CarriedContact result;
-  for (const auto& [contact, place, node, v] : comm.all_gather(own))
-    result.nodes_[{contact, node, place}] = {{v[0], {v[1], v[2], v[3]}}, {v[4], {v[5], v[6], v[7]}}};
-  return result;
+  std::vector<std::vector<NodeKey>> to;
+  for (const auto& asked : comm.exchange(ask)) {
+    auto& keys = to.emplace_back();
+    for (const auto& [contact, place, node] : asked)
+      if (nodes_.contains({contact, node, place})) keys.emplace_back(contact, node, place);
+  }
+  return exchange(to, comm);
 }
 
 void CarriedContact::put(const feti::DualProblem& problem, Eigen::VectorXd& forces, Eigen::VectorXd& gaps) const
@@ -61,11 +104,11 @@ void CarriedContact::put(const feti::DualProblem& problem, Eigen::VectorXd& forc
   }
 }
 
-qp::Solution CarriedContact::states_for(const feti::DualProblem& problem) const
+qp::Solution CarriedContact::states_for(const feti::DualProblem& problem, const Communicator& comm) const
 {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.jump().rows()->getNodeNumElements()));
   Eigen::VectorXd gaps = forces;
-  put(problem, forces, gaps);
+  at(problem.constraints().contacts, comm).put(problem, forces, gaps);
   const Eigen::VectorXd nu = Eigen::VectorXd::Zero(problem.equality().size());
   return {problem.multipliers(forces), problem.gradient(gaps, nu), nu};
 }

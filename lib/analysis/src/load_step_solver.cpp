@@ -264,7 +264,7 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
   if (before)
     start = before->solved.solution;
   else if (approach_.contact)
-    solver_->suggest(approach_.contact->states_for(*problem_));
+    solver_->suggest(approach_.contact->states_for(*problem_, context_.comm));
   auto found = solver_->solve(start, accuracy, count_on, patience);
   if (found.gave_up) return {rows_, symmetric_, std::move(found), {}, {}, patience, magnitudes};
   if (approach_.kind == Approach::Kind::direct_instead)
@@ -293,7 +293,7 @@ Outcome LoadStepSolver::given_up(const StepState& state) const
   Outcome outcome{.status = {}, .next = approach_.next, .spent = applications()};
   if (first_)
     outcome.contact =
-        std::make_shared<const CarriedContact>(CarriedContact(*problem_, state.solved.solution).of_all_ranks(context_.comm));
+        std::make_shared<const CarriedContact>(CarriedContact(*problem_, state.solved.solution).spread(context_.comm));
   return outcome;
 }
 

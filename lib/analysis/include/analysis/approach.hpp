@@ -36,7 +36,8 @@ struct Approach {
   int spent = 0;                           ///< products with F so far, those of earlier approaches included
   Kind next = Kind::direct_instead;        ///< what is tried after giving up
   bool smaller = false;                    ///< large subdomains have been cut into small pieces
-  /// Where products gave up in the first state: how they left contact, of all ranks, for a direct solution to begin with.
+  /// Where products gave up in the first state: how they left contact, spread over the ranks, for a direct solution to begin
+  /// with.
   std::shared_ptr<const CarriedContact> contact = {};
 };
 

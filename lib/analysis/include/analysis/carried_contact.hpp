@@ -3,6 +3,7 @@
 
 #include <map>
 #include <tuple>
+#include <vector>
 
 #include "base/communicator.hpp"
 #include "feti/dual_problem.hpp"
@@ -18,14 +19,15 @@ class CarriedContact {
  public:
   /// Those of the nodes of this rank, at multipliers with their gradient.
   CarriedContact(const feti::DualProblem& problem, const qp::Solution& solution);
-  /// With those of all ranks. Collective.
-  CarriedContact of_all_ranks(const Communicator& comm) const;
+  /// Those of all ranks, each node on rank node % ranks. Collective.
+  CarriedContact spread(const Communicator& comm) const;
 
   /// Sets what is known of the contact rows of another problem on this rank; `forces`, `gaps`: of all its rows, see
   /// feti::DualProblem::forces() and gaps().
   void put(const feti::DualProblem& problem, Eigen::VectorXd& forces, Eigen::VectorXd& gaps) const;
-  /// Multipliers and gradient of another problem that know of contact alone: good for the states of its constraints.
-  qp::Solution states_for(const feti::DualProblem& problem) const;
+  /// Of what is spread: multipliers and gradient of another problem that know of contact alone, good for the states of its
+  /// constraints. Collective.
+  qp::Solution states_for(const feti::DualProblem& problem, const Communicator& comm) const;
 
  private:
   struct Values {
@@ -36,6 +38,9 @@ class CarriedContact {
     Values force, gap;
   };
   CarriedContact() = default;
+  CarriedContact exchange(const std::vector<std::vector<NodeKey>>& to, const Communicator& comm) const;
+  // Of what is spread, the nodes that this rank has.
+  CarriedContact at(const constraint::Contacts& contacts, const Communicator& comm) const;
 
   std::map<NodeKey, Node> nodes_;
 };
