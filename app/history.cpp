@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "base/interruption.hpp"
+#include "qp/solver.hpp"
 
 namespace mortise {
 
@@ -57,7 +58,7 @@ void History::note(const model::LoadState& state, int step, double change, const
   if (p.what != "inner" || ++inner_ % 4 == 0) stop_if_requested(context_.comm);  // asking takes time where ranks share a core
   if (p.what == "inner") {
     const double residual = std::max(p.projected_gradient, p.equality);
-    const auto measures = options_.algorithm == "smalse"
+    const auto measures = qp::solver_kind(options_.algorithm).two_residuals
                               ? fmt::format("gradient {:.1e}, equality {:.1e}", p.projected_gradient, p.equality)
                           : std::isfinite(residual) ? fmt::format("residual {:.1e}", residual)
                                                     : "no residual yet";

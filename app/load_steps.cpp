@@ -10,6 +10,7 @@
 #include "io/files.hpp"
 #include "lines.hpp"
 #include "output/summary.hpp"
+#include "qp/solver.hpp"
 
 namespace mortise {
 
@@ -82,7 +83,7 @@ auto Report::LoadSteps::write(const Begun& begun, const analysis::LoadStepSolver
   const bool first = !before;
   auto summary = output::summarise(model, found, comm);
   summary.version = MORTISE_VERSION;
-  summary.algorithm = approach_.algorithm == "auto" ? "face_newton" : approach_.algorithm;
+  summary.algorithm = qp::solver_kind(approach_.algorithm).name;
   if (approach_.takes_bodies_whole() && run_.sizes_as_cut_.subdomains > 0) output::copy_sizes(run_.sizes_as_cut_, summary);
   if (first) summary.hessian_multiplications += approach_.spent;
   output::accumulate_steps(begun.acts, before ? before->summary : io::Summary{}, summary);

@@ -9,6 +9,7 @@
 #include "partition/options.hpp"
 #include "partition/smaller_subdomains.hpp"
 #include "partition/whole_bodies.hpp"
+#include "qp/solver.hpp"
 
 namespace mortise::analysis {
 
@@ -75,7 +76,7 @@ Approach with_patience(Approach approach, const Assembly& assembly, const constr
     approach.patience = products_of_check;
   else if (approach.kind == Approach::Kind::whole_bodies)
     approach.patience = qp::Patience(products_on_whole_bodies, near_on_whole_bodies);
-  else if (approach.algorithm == "auto") {
+  else if (approach.algorithm == qp::Options::automatic) {
     const auto of_direct = effort();
     approach.patience = patience_with_products(of_direct, comm);
     if (approach.patience && of_direct.seconds > long_direct && cuts_bodies(assembly, comm))
@@ -93,7 +94,7 @@ Approach with_patience(Approach approach, const Assembly& assembly, const constr
       approach.patience = products_on_large_ones;
       approach.next = Approach::Kind::smaller_subdomains;
     }
-  } else if (approach.algorithm == "direct")
+  } else if (qp::solver_kind(approach.algorithm).whole_bodies)
     require_room_for_direct(effort(), comm);
   return approach;
 }
@@ -134,6 +135,7 @@ ExitStatus try_approaches(const model::Deck& deck, const partition::Decompositio
   using Kind = Approach::Kind;
   auto& [comm, log, timers] = context;
   const auto& asked = deck.solver.programme.algorithm;
+  const std::string with_products(qp::solvers().front().name), direct(qp::solver_of_whole_bodies().name);
   Approach approach = resumed.value_or(Approach{});
   partition::Decomposition smaller;
   if (approach.kind == Kind::as_asked) {
@@ -172,14 +174,14 @@ ExitStatus try_approaches(const model::Deck& deck, const partition::Decompositio
       approach.spent = outcome.spent;
     }
     if (approach.kind != Kind::direct_instead) no_end("a direct solution instead, with every body whole");
-    approach = {Kind::direct_instead, "direct", {}, approach.spent, Kind::direct_instead, approach.smaller, approach.contact};
+    approach = {Kind::direct_instead, direct, {}, approach.spent, Kind::direct_instead, approach.smaller, approach.contact};
     const auto outcome = attempt_without_fault(attempt, bodies, approach, comm);
     if (outcome.status) return *outcome.status;
     log.end_progress();
     log.line("  the direct solution {}: back to products with F", why_it_failed(outcome, resumed.has_value()));
     approach.spent = outcome.spent;
   }
-  approach = {Kind::products_to_the_end, "face_newton", {}, approach.spent, Kind::direct_instead, approach.smaller};
+  approach = {Kind::products_to_the_end, with_products, {}, approach.spent, Kind::direct_instead, approach.smaller};
   return attempt(cut, approach).status.value();
 }
 

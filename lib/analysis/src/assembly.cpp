@@ -37,7 +37,7 @@ std::optional<double> most_rounded(const model::Model& model, const std::vector<
   // What is free to expand has no stress, and displacements as large as any: rounding is a part of these.
   if (std::ranges::any_of(deck.loads, [](const auto& load) { return load.temperature_change.has_value(); })) return {};
   if (options.factor_precision == "single") return most;
-  if (programme.tolerance.value || programme.algorithm == "direct") return {};
+  if (programme.tolerance.value || qp::solver_kind(programme.algorithm).whole_bodies) return {};
   double sum = 0;
   for (std::size_t s = 0; s < copies.size(); ++s)
     if (copies[s].original == s && !decomposition.subdomains[s].skin)

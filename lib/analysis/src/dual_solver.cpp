@@ -27,7 +27,7 @@ DualSolver::DualSolver(const feti::DualProblem& problem, std::vector<friction::L
       laws_(std::move(laws)),
       loop_(loop),
       tolerance_(solver.tolerance.value),
-      from_direct_(solver.algorithm == "direct"),
+      from_direct_(qp::solver_kind(solver.algorithm).whole_bodies),
       hessian_(problem.hessian(), 0),
       budget_(hessian_, solver.max_multiplications.value, qp::solver_kind(solver.algorithm).steady),
       omega_(friction::with_coefficients(problem, laws_)),

@@ -129,7 +129,7 @@ void exchange_stiff_sides(const Deck& deck, Contacts& contacts, const partition:
   };
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     auto& contact = contacts.options[c];
-    if (contact.preload || contact.discretization == "node_to_segment" || !sides.count(2 * static_cast<int>(c))) continue;
+    if (contact.preload || !contact::sides_are_alike(contact) || !sides.count(2 * static_cast<int>(c))) continue;
     if (!(modulus(2 * c) > far_stiffer * modulus(2 * c + 1))) continue;
     if (contact.law != contact::Law::bonded && !finer(contact, decomposition, comm)) continue;
     std::swap(contact.secondary, contact.primary);

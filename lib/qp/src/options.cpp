@@ -9,7 +9,7 @@ namespace mortise::qp {
 void describe(deck::Description<Options>& d)
 {
   d.help("How the quadratic programme in the multipliers is solved.");
-  std::vector<std::string> names{"auto"};
+  std::vector<std::string> names{Options::automatic};
   std::string help;
   for (const auto& kind : solvers()) {
     names.emplace_back(kind.name);

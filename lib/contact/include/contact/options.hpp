@@ -47,6 +47,9 @@ struct AutoOptions {
   Options contact;
 };
 
+/// Whether its discretization takes both sides alike, so that either may be the secondary one.
+bool sides_are_alike(const Options& options);
+
 /// The keywords.
 void describe(deck::Description<PreloadOptions>& d);
 void describe(deck::Description<Options>& d);

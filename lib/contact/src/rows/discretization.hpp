@@ -62,14 +62,16 @@ class Discretization {
 struct DiscretizationKind {
   std::string_view name;  ///< in the deck
   std::string_view help;
+  /// Which side is the secondary one may be chosen by the program: both have multipliers that mean the same.
+  bool sides_alike;
   std::unique_ptr<Discretization> (*make)(const TwoSides& sides);
 };
 
 /// The table. To add a discretization: a file with its class and the function that makes it, and a row.
 std::span<const DiscretizationKind> discretizations();
 
-/// The one of a name in the deck, for one contact.
-std::unique_ptr<Discretization> make_discretization(std::string_view name, const TwoSides& sides);
+/// The row of a name in the deck; of one that is not in it the first.
+const DiscretizationKind& discretization_kind(std::string_view name);
 
 std::unique_ptr<Discretization> make_mortar(const TwoSides& sides);
 std::unique_ptr<Discretization> make_node_to_segment(const TwoSides& sides);

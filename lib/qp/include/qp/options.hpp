@@ -8,7 +8,8 @@
 namespace mortise::qp {
 
 struct Options {
-  std::string algorithm = "auto";         ///< auto, or a name of solvers()
+  static constexpr const char* automatic = "auto";  ///< the program chooses a solver, and may change it
+  std::string algorithm = automatic;                ///< auto, or a name of solvers()
   deck::OrAuto<double> tolerance;         ///< of gradient and equality residual over ||P d||; auto: by the error, see Goal
   deck::OrAuto<int> max_multiplications;  ///< products with F, in the whole run; auto: see Budget
 };

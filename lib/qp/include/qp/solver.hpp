@@ -1,7 +1,8 @@
 // The solvers of quadratic programmes: what they have in common, and the table of them.
 //
-// A row of the table is a name in the deck and how its solver is made. What drives solvers (lib/analysis) asks for one by that
-// name and knows no other difference between them than that some can follow a slip law by themselves.
+// A row of the table is a name in the deck, how its solver is made, and what it wants of its surroundings. What drives solvers
+// (lib/analysis) asks for one by that name and knows no other difference between them than that some can follow a slip law by
+// themselves.
 #pragma once
 
 #include <functional>
@@ -88,10 +89,13 @@ class Solver {
 struct SolverKind {
   std::string_view name;  ///< in the deck
   std::string_view help;
-  bool steady;          ///< its residual may rise for long: see Budget
-  bool exact_products;  ///< it compares products with matrices, so that whoever makes it has to make them exact before
+  bool steady = false;  ///< its residual may rise for long: see Budget
+  /// It compares products with matrices, so that whoever makes it has to make them exact before.
+  bool exact_products = false;
+  bool whole_bodies = false;   ///< it wants every body to be one subdomain
+  bool two_residuals = false;  ///< the projected gradient and the equality's, which it drives down one after the other
   /// What `programme` and `means` refer to outlives the solver. Collective.
-  std::unique_ptr<Solver> (*make)(const Programme& programme, const Means& means);
+  std::unique_ptr<Solver> (*make)(const Programme& programme, const Means& means) = nullptr;
 };
 
 /// The table. To add a solver: a file with the function that makes it, and a row.
@@ -99,5 +103,8 @@ std::span<const SolverKind> solvers();
 
 /// The row of a name in the deck; for `auto` the first one.
 const SolverKind& solver_kind(std::string_view name);
+
+/// The row of the solver of whole bodies.
+const SolverKind& solver_of_whole_bodies();
 
 }  // namespace mortise::qp
