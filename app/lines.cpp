@@ -74,7 +74,7 @@ std::string vector(const std::array<double, 3>& x)
   return fmt::format("({:.5g}, {:.5g}, {:.5g})", x[0], x[1], x[2]);
 }
 
-std::string place(const io::StateSummary::Place& p)
+std::string place(const io::StateSummary::Location& p)
 {
   return vector(p.coordinates) + (p.body.empty() ? "" : fmt::format(", body {}", p.body));
 }

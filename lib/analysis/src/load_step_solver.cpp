@@ -94,9 +94,9 @@ void refuse_support_of_facets(const feti::DualProblem& problem, const Assembly& 
   const auto bounds = friction::slip_bounds(problem, model::friction_laws(assembly.model().contacts()), &found.solution.x);
   const auto& comm = problem.communicator();
   if (!comm.any(!bounds.empty())) return;
-  const auto moved =
-      feti::held_by_facets(problem, assembly.decomposition(), assembly.deck().kinematics,
-                           sliding_surfaces_of(rows, assembly.model(), comm), found.solution.x, displacement, bounds, inexact);
+  const auto moved = feti::supported_by_facets(problem, assembly.decomposition(), assembly.deck().kinematics,
+                                               sliding_surfaces_of(rows, assembly.model(), comm), found.solution.x, displacement,
+                                               bounds, inexact);
   if (moved)
     throw Error(ExitStatus::no_equilibrium,
                 "no equilibrium: " + *moved + ". Support it, or look at the direction of the loads and at the friction");

@@ -18,18 +18,18 @@ constexpr double no_force = 1e-6;
 std::vector<bool> reached(const std::vector<contact::Pair>& pairs, const constraint::Contacts& contacts, std::size_t bodies,
                           const Communicator& comm)
 {
-  struct Place {
+  struct NodeOfBody {
     Global node;
     long long body;
   };
   const auto ranks = static_cast<std::size_t>(comm.size());
-  std::vector<std::vector<Place>> places(ranks);
+  std::vector<std::vector<NodeOfBody>> on_bodies(ranks);
   std::vector<std::vector<Global>> touched(ranks);
   const auto tell = [&](const mesh::Surface& surface) {
     for (std::size_t f = 0; f < surface.faces.size(); ++f)
       for (const Local n : surface.faces[f]) {
         const Global node = surface.node_id[static_cast<std::size_t>(n)];
-        places[static_cast<std::size_t>(node) % ranks].push_back({node, surface.body[f]});
+        on_bodies[static_cast<std::size_t>(node) % ranks].push_back({node, surface.body[f]});
       }
   };
   for (const auto& pair : pairs) {
@@ -42,7 +42,7 @@ std::vector<bool> reached(const std::vector<contact::Pair>& pairs, const constra
   for (const auto& part : comm.exchange(touched)) nodes.insert(nodes.end(), part.begin(), part.end());
   std::sort(nodes.begin(), nodes.end());
   std::vector<double> found(bodies, 0.0);
-  for (const auto& part : comm.exchange(places))
+  for (const auto& part : comm.exchange(on_bodies))
     for (const auto& place : part)
       if (std::binary_search(nodes.begin(), nodes.end(), place.node)) found[static_cast<std::size_t>(place.body)] = 1;
   comm.sum_in_place(found);
@@ -113,7 +113,7 @@ void check_unconstrained_bodies(const model::Model& model, const Rows& rows, con
   const auto& comm = context.comm;
   const auto& decomposition = model.decomposition();
   const auto& bodies = decomposition.catalogue.bodies;
-  std::vector<bool> alone = model.held(reached(rows.pairs, rows.constraints.contacts, bodies.size(), comm), comm);
+  std::vector<bool> alone = model.supported(reached(rows.pairs, rows.constraints.contacts, bodies.size(), comm), comm);
   alone.flip();
   if (std::none_of(alone.begin(), alone.end(), [](bool b) { return b; })) return;
 

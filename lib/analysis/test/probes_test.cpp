@@ -50,7 +50,7 @@ class Asked {
   post::Probes find() { return find_probes(*model_, document_, comm); }
   const model::Deck& deck() const { return deck_; }
   const std::vector<partition::Subdomain>& subdomains() const { return resolved_.decomposition.subdomains; }
-  const partition::Subdomain& subdomain(const post::Place& place) const
+  const partition::Subdomain& subdomain(const post::PointInCell& place) const
   {
     return resolved_.decomposition.subdomains[place.subdomain];
   }
@@ -78,7 +78,7 @@ TEST(Probes, PlanesCutBodiesOfBothMethods)
   for (std::size_t k = 0; k < 5; ++k) {
     double area = 0;
     for (const auto& triangle : probes.planes[k].triangles) {
-      const auto place = [&](std::size_t i) -> const post::Place& {
+      const auto place = [&](std::size_t i) -> const post::PointInCell& {
         return probes.planes[k].places[static_cast<std::size_t>(triangle[i])];
       };
       area += (place(1).at - place(0).at).cross(place(2).at - place(0).at).norm() / 2;

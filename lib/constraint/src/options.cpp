@@ -148,8 +148,8 @@ nlohmann::ordered_json support_rules()
 void describe(deck::Description<SupportOptions>& d)
 {
   d.help("Prescribed displacements of a boundary.");
-  d.key("boundary", &SupportOptions::boundary, "Boundary that is held.");
-  d.key("coupling", &SupportOptions::coupling, "Instead of a boundary: the coupling whose point is held.");
+  d.key("boundary", &SupportOptions::boundary, "Boundary whose displacement is prescribed.");
+  d.key("coupling", &SupportOptions::coupling, "Instead of a boundary: the coupling whose point is prescribed.");
   d.key("name", &SupportOptions::name, "To refer to it; the boundary or coupling if not given.");
   d.key("points", &SupportOptions::points,
         "Instead of a boundary: nodes of the surface, by their coordinates or by the name of a curve or a point of the mesh.");
@@ -173,7 +173,7 @@ void describe(deck::Description<SupportOptions>& d)
   d.rule(support_rules());
   d.check([](const SupportOptions& support, const std::string& path, deck::Document& document) {
     const int places = !support.boundary.empty() + !support.coupling.empty() + !support.points.empty();
-    if (places == 0) document.error(path, "the key \"boundary\" is missing: Boundary that is held.");
+    if (places == 0) document.error(path, "the key \"boundary\" is missing: Boundary whose displacement is prescribed.");
     if (places > 1) document.error(path, "expected one of `boundary`, `coupling` and `points`, found several");
     if (!support.body.empty() && support.points.empty())
       document.error(path + ".body", "a body is named for `points`; a boundary is narrowed as \"body:boundary\"");

@@ -21,18 +21,16 @@ Point direction(const Contacts& contacts, const Preload& preload, bool axisymmet
   }
   comm.sum_in_place(sums);
   if (!(sums[3] > 0))
-    throw Error(
-        ExitStatus::bad_input,
-        fmt::format("contact \"{}\": the two sides of its cut do not meet, so that no bolt can be preloaded there; look at the "
-                    "names of the boundaries or set a larger search_distance",
-                    preload.name));
+    throw Error(ExitStatus::bad_input, fmt::format("contact \"{}\": the two sides of its pretension section do not meet, so that "
+                                                   "no bolt can be preloaded there; look at the "
+                                                   "names of the boundaries or set a larger search_distance",
+                                                   preload.name));
   const Point mean = Point(axisymmetric ? 0 : sums[0], sums[1], sums[2]) / sums[3];
   if (mean.norm() < least_mean)
-    throw Error(
-        ExitStatus::bad_input,
-        fmt::format("contact \"{}\": the normals of its cut point all ways, so that it cannot be drawn together; expected one "
-                    "cut across the shank of a bolt{}",
-                    preload.name, axisymmetric ? ", whose axis is the axis of revolution" : ""));
+    throw Error(ExitStatus::bad_input, fmt::format("contact \"{}\": the normals of its pretension section point all ways, so "
+                                                   "that it cannot be drawn together; expected one "
+                                                   "cut across the shank of a bolt{}",
+                                                   preload.name, axisymmetric ? ", whose axis is the axis of revolution" : ""));
   return mean.normalized();
 }
 

@@ -56,10 +56,10 @@ void expect_error(Contacts contacts, int contact, const std::string& text)
 
 TEST(Cuts, NeedADirection)
 {
-  expect_error(tilted_points(), 2, "the two sides of its cut do not meet");
+  expect_error(tilted_points(), 2, "the two sides of its pretension section do not meet");
   Contacts closed = tilted_points();
   closed.nodes[2].normal = -closed.nodes[1].normal;
-  expect_error(closed, 1, "the normals of its cut point all ways");
+  expect_error(closed, 1, "the normals of its pretension section point all ways");
 }
 
 }  // namespace

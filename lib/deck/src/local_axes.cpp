@@ -23,17 +23,17 @@ constexpr double the_same = 1e-9;     // of unit vectors, and of sizes
 
 void describe(Description<AxesOptions>& d)
 {
-  d.help("Local axes, that supports and loads refer to: cylindrical about `axis`, or turned, with `x` and `y`.");
+  d.help("Local axes, that supports and loads refer to: cylindrical about `axis`, or rotated, with `x` and `y`.");
   d.key("axis", &AxesOptions::axis, "Cylindrical: the direction of the axis; components are radial, tangential and axial.");
   d.key("point", &AxesOptions::point, "A point of the axis.");
-  d.key("x", &AxesOptions::x, "Turned: the direction of the first axis.");
+  d.key("x", &AxesOptions::x, "Rotated: the direction of the first axis.");
   d.key("y", &AxesOptions::y, "The direction of the second axis, made orthogonal to the first (plane models: not needed).");
   d.rule(one_given({"axis", "x"}));
   d.rule(when(given({"y"}), given({"x"})));
   d.check([](const AxesOptions& axes, const std::string& path, Document& document) {
     if (axes.axis.has_value() == axes.x.has_value())
-      document.error(path, "expected either an `axis`, for cylindrical components, or `x`, for turned axes");
-    if (axes.y && !axes.x) document.error(path + ".y", "turned axes have an `x`, too");
+      document.error(path, "expected either an `axis`, for cylindrical components, or `x`, for rotated axes");
+    if (axes.y && !axes.x) document.error(path + ".y", "rotated axes have an `x`, too");
     if (axes.axis && !(vector(*axes.axis).norm() > 0)) document.error(path + ".axis", "expected a direction, found zeros");
     if (axes.x && !(vector(*axes.x).norm() > 0)) document.error(path + ".x", "expected a direction, found zeros");
     if (axes.x && axes.y &&

@@ -14,11 +14,11 @@ constexpr Eigen::Index columns_at_once = 64;
 // K with the rows and columns of `prescribed` replaced by those of an identity.
 SparseMatrix with_identity(const SparseMatrix& k, const std::vector<Local>& prescribed)
 {
-  std::vector<char> taken(static_cast<std::size_t>(k.cols()), 0);
-  for (const Local u : prescribed) taken[static_cast<std::size_t>(u)] = 1;
+  std::vector<char> eliminated(static_cast<std::size_t>(k.cols()), 0);
+  for (const Local u : prescribed) eliminated[static_cast<std::size_t>(u)] = 1;
   SparseMatrix result = k;
   result.prune([&](Eigen::Index i, Eigen::Index j, double) {
-    return i == j || (taken[static_cast<std::size_t>(i)] == 0 && taken[static_cast<std::size_t>(j)] == 0);
+    return i == j || (eliminated[static_cast<std::size_t>(i)] == 0 && eliminated[static_cast<std::size_t>(j)] == 0);
   });
   for (const Local u : prescribed) result.coeffRef(u, u) = 1;
   return result;
@@ -133,16 +133,16 @@ std::vector<DirichletElimination::PrescribedRow> DirichletElimination::rows_to_e
 {
   const auto kind = view(kinds);
   const auto dimension = static_cast<Local>(problem_.dimension());
-  std::vector<char> taken(static_cast<std::size_t>(block.size), 0);
+  std::vector<char> prescribed(static_cast<std::size_t>(block.size), 0);
   for (std::size_t r = 0; r < block.row.size(); ++r)
     if (kind[block.row[r]] == skew)
       for (auto i = block.offset[r]; i < block.offset[r + 1]; ++i)
-        std::fill_n(taken.begin() + block.unknown[i] / dimension * dimension, dimension, 1);
+        std::fill_n(prescribed.begin() + block.unknown[i] / dimension * dimension, dimension, 1);
   std::vector<PrescribedRow> rows;
   for (std::size_t r = 0; r < block.row.size(); ++r) {
     if (kind[block.row[r]] != single) continue;
     const auto unknown = block.unknown[block.offset[r]];
-    if (auto& once = taken[static_cast<std::size_t>(unknown)]; once++ == 0)
+    if (auto& once = prescribed[static_cast<std::size_t>(unknown)]; once++ == 0)
       rows.push_back({block.row[r], unknown, block.coefficient[block.offset[r]]});
   }
   return rows;
@@ -223,7 +223,7 @@ Vector DirichletElimination::reduce(const Vector& d, Eigen::VectorXd& e) const
   Vector touched(jump.touched_rows());
   touched.doImport(d, jump.import(), Tpetra::INSERT);
   std::vector<Eigen::VectorXd> u;
-  Eigen::VectorXd taken = Eigen::VectorXd::Zero(e.size());
+  Eigen::VectorXd by_supports = Eigen::VectorXd::Zero(e.size());
   collectively(problem_.communicator(), [&] {
     for (std::size_t s = 0; s < rows_.size(); ++s) {
       const auto& body = subdomains_[s];
@@ -231,12 +231,12 @@ Vector DirichletElimination::reduce(const Vector& d, Eigen::VectorXd& e) const
       u.emplace_back(Eigen::VectorXd::Zero(jump.blocks()[s].size));
       if (rows_[s].empty()) continue;
       u[s] = body.displacement(at_prescribed(s, view(std::as_const(touched))), std::move(u[s]));
-      taken.segment(problem_.clusters().first(s), kernel.cols()) +=
+      by_supports.segment(problem_.clusters().first(s), kernel.cols()) +=
           kernel(body.prescribed(), Eigen::all).transpose() * body.reactions(u[s]);
     }
   });
-  problem_.communicator().sum_in_place({taken.data(), static_cast<std::size_t>(taken.size())});
-  e -= taken;
+  problem_.communicator().sum_in_place({by_supports.data(), static_cast<std::size_t>(by_supports.size())});
+  e -= by_supports;
   Vector result = jump.apply(u);
   result.update(1, d, -1);
   auto values = view(result);

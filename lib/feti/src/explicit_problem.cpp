@@ -141,8 +141,8 @@ void ExplicitProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETran
   }
 }
 
-ExplicitProblem::Point ExplicitProblem::solve(const Vector& linear, Eigen::VectorXd e, const qp::FeasibleSet& set,
-                                              const Point* near) const
+ExplicitProblem::Result ExplicitProblem::solve(const Vector& linear, Eigen::VectorXd e, const qp::FeasibleSet& set,
+                                               const Result* near) const
 {
   const auto& comm = problem_.communicator();
   const Eigen::VectorXd right_side = e;
@@ -157,7 +157,7 @@ ExplicitProblem::Point ExplicitProblem::solve(const Vector& linear, Eigen::Vecto
   std::vector<long long> outcome;
   collectively(comm, [&] {
     if (!comm.root()) return;
-    qp::CondensedNewton::Point from;
+    qp::CondensedNewton::Result from;
     if (near) from = {map(start), near->nu, near->converged, 0, map(felt)};
     const auto found = newton_->solve(map(reduced), e, on_root, near ? &from : nullptr);
     x.assign(found.x.begin(), found.x.end());
@@ -167,8 +167,8 @@ ExplicitProblem::Point ExplicitProblem::solve(const Vector& linear, Eigen::Vecto
   });
   comm.broadcast(nu);
   comm.broadcast(outcome);
-  Point result{Vector(problem_.jump().rows()), map(nu),         outcome[0] == 1,
-               Vector(problem_.jump().rows()), outcome[1] == 1, outcome[2] == 1};
+  Result result{Vector(problem_.jump().rows()), map(nu),         outcome[0] == 1,
+                Vector(problem_.jump().rows()), outcome[1] == 1, outcome[2] == 1};
   view(result.x) = rows_->from_root(std::move(x));
   view(*result.reaction) = rows_->from_root(std::move(reaction));
   elimination_->complete(linear, result.nu, result.x);

@@ -228,11 +228,11 @@ std::optional<std::string> beyond_friction(const Search& search, const BodyRows&
 
 }  // namespace
 
-std::optional<std::string> held_by_facets(const DualProblem& problem, const partition::Decomposition& decomposition,
-                                          fem::Kinematics kinematics,
-                                          std::span<const constraint::SlidingSurface> sliding_surfaces, const Vector& lambda,
-                                          const std::vector<Eigen::VectorXd>& displacement, std::span<const double> bounds,
-                                          double slack)
+std::optional<std::string> supported_by_facets(const DualProblem& problem, const partition::Decomposition& decomposition,
+                                               fem::Kinematics kinematics,
+                                               std::span<const constraint::SlidingSurface> sliding_surfaces, const Vector& lambda,
+                                               const std::vector<Eigen::VectorXd>& displacement, std::span<const double> bounds,
+                                               double slack)
 {
   constexpr double at_bound = 1 - 1e-3;
   const auto& comm = problem.communicator();

@@ -13,26 +13,26 @@ namespace {
 
 qp::ExplicitProgramme sparse_programme(const DualProblem& problem, bool slender)
 {
-  using Point = qp::ExplicitProgramme::Point;
+  using Result = qp::ExplicitProgramme::Result;
   const auto matrices = std::make_shared<SparseProblem>(problem, slender);
   const auto solve = [matrices](const qp::RightHandSide& right, const qp::FeasibleSet& set) {
     return matrices->solve(right, set);
   };
   const auto go_on = [matrices](const qp::RightHandSide& right, const Vector& d, const Eigen::VectorXd& e,
                                 const qp::FeasibleSet& set,
-                                const Point& near) { return matrices->go_on(right, d, e, set, near); };
+                                const Result& near) { return matrices->go_on(right, d, e, set, near); };
   return {matrices, solve, go_on, true, {}, slender};
 }
 
 qp::ExplicitProgramme dense_programme(const DualProblem& problem)
 {
-  using Point = qp::ExplicitProgramme::Point;
+  using Result = qp::ExplicitProgramme::Result;
   const auto matrices = std::make_shared<ExplicitProblem>(problem);
   const auto solve = [matrices](const qp::RightHandSide& right, const qp::FeasibleSet& set) {
     return matrices->solve(right.b, right.e, set);
   };
   const auto go_on = [matrices](const qp::RightHandSide&, const Vector& d, const Eigen::VectorXd& e, const qp::FeasibleSet& set,
-                                const Point& near) { return matrices->solve(d, e, set, &near); };
+                                const Result& near) { return matrices->solve(d, e, set, &near); };
   return {matrices, solve, go_on, matrices->differs()};
 }
 

@@ -182,14 +182,14 @@ VectorXd SparseProblem::on_root(const std::vector<VectorXd>& parts) const
   return as_vector(feti::on_root(std::move(own), problem_.communicator()));
 }
 
-SparseProblem::Point SparseProblem::solve(const qp::RightHandSide& right, const qp::FeasibleSet& set) const
+SparseProblem::Result SparseProblem::solve(const qp::RightHandSide& right, const qp::FeasibleSet& set) const
 {
   return solve(right.f, right.c, set, nullptr);
 }
 
 // Forces R de move bodies and nothing else: c' = c + d - d' + B K^+ R de.
-SparseProblem::Point SparseProblem::go_on(const qp::RightHandSide& right, const Vector& linear, const VectorXd& e,
-                                          const qp::FeasibleSet& set, const Point& near) const
+SparseProblem::Result SparseProblem::go_on(const qp::RightHandSide& right, const Vector& linear, const VectorXd& e,
+                                           const qp::FeasibleSet& set, const Result& near) const
 {
   const auto& clusters = problem_.clusters();
   const VectorXd more = e - right.e;
@@ -204,8 +204,8 @@ SparseProblem::Point SparseProblem::go_on(const qp::RightHandSide& right, const 
   return solve(f, bound, set, &near);
 }
 
-SparseProblem::Point SparseProblem::solve(const std::vector<VectorXd>& f, const VectorXd& bound, const qp::FeasibleSet& set,
-                                          const Point* near) const
+SparseProblem::Result SparseProblem::solve(const std::vector<VectorXd>& f, const VectorXd& bound, const qp::FeasibleSet& set,
+                                           const Result* near) const
 {
   const auto& comm = problem_.communicator();
   const VectorXd load = on_root(f);
@@ -227,8 +227,8 @@ SparseProblem::Point SparseProblem::solve(const std::vector<VectorXd>& f, const 
   });
   comm.broadcast(u);
   comm.broadcast(outcome);
-  Point result{Vector(problem_.jump().rows()), VectorXd::Zero(problem_.equality().size()), outcome[0] == 1,
-               Vector(problem_.jump().rows()), outcome[1] == 1};
+  Result result{Vector(problem_.jump().rows()), VectorXd::Zero(problem_.equality().size()), outcome[0] == 1,
+                Vector(problem_.jump().rows()), outcome[1] == 1};
   view(result.x) = rows_->from_root(std::move(x));
   view(*result.reaction) = rows_->from_root(std::move(reaction));
 

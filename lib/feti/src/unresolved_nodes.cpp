@@ -43,7 +43,7 @@ int band(const DualProblem& problem, int contact, const std::vector<bool>& open)
   std::vector<std::vector<Sent>> send(static_cast<std::size_t>(comm.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (nodes[i].contact == contact) send[0].push_back({nodes[i].at[0], nodes[i].at[1], nodes[i].at[2], open[i] ? 1.0 : 0.0});
-  std::vector<Place> places;
+  std::vector<BandPoint> places;
   for (const auto& part : comm.exchange(send))
     for (const auto& p : part) places.push_back({Point(p.x, p.y, p.z), p.open > 0});
   return static_cast<int>(comm.max(static_cast<long long>(comm.root() ? widest_band(places) : 0)));
@@ -203,7 +203,7 @@ namespace {
 // Walks from point to point of one contact.
 class Walk {
  public:
-  explicit Walk(std::span<const Place> points) : points_(points)
+  explicit Walk(std::span<const BandPoint> points) : points_(points)
   {
     for (const auto& p : points) same_ = std::max(same_, 1e-9 * (p.at - points.front().at).norm());
   }
@@ -242,9 +242,9 @@ class Walk {
   static constexpr double far = 5;     // times the step before: there is no surface between
   static constexpr int longest = 100;  // walk
   template <class Fits>
-  std::optional<Place> nearest(const Point& from, const Fits& fits) const
+  std::optional<BandPoint> nearest(const Point& from, const Fits& fits) const
   {
-    std::optional<Place> found;
+    std::optional<BandPoint> found;
     double least = std::numeric_limits<double>::infinity();
     for (const auto& p : points_) {
       const Point way = p.at - from;
@@ -256,17 +256,17 @@ class Walk {
     return found;
   }
 
-  std::span<const Place> points_;
+  std::span<const BandPoint> points_;
   double same_ = 0;
   mutable double first_ = 0;
 };
 
 }  // namespace
 
-int widest_band(std::span<const Place> points)
+int widest_band(std::span<const BandPoint> points)
 {
   const Walk walk(points);
-  const auto open = std::count_if(points.begin(), points.end(), [](const Place& p) { return p.open; });
+  const auto open = std::count_if(points.begin(), points.end(), [](const BandPoint& p) { return p.open; });
   const auto stride = std::max(1L, static_cast<long>(open) / probes);
   int widest = 0;
   long seen = 0;

@@ -123,7 +123,7 @@ WholeProblem::Solution WholeProblem::solve(const VectorXd& f, const VectorXd& c,
   VectorXd load = f;
   load -= stiffness_.selfadjointView<Eigen::Lower>() * u;
   const VectorXd gap = c - elimination_.rows() * u;
-  qp::CondensedNewton::Point from;
+  qp::CondensedNewton::Result from;
   if (near && (last_.size() == 0 || !near->solved))
     from = {near->x(kept), u(free), near->solved, 0, near->reaction(kept)};
   else if (near)

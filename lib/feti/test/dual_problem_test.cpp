@@ -240,20 +240,22 @@ TEST(DualProblem, SpringsAreStiffnessOfTheWhole)
       const Cube whole(10, true, MPI_COMM_SELF);
       auto [k, f] = assembled(whole);
       auto& springs = cube.constraints.springs;
-      const auto& held = whole.constraints.prescribed;
+      const auto& prescribed = whole.constraints.prescribed;
       std::vector<Eigen::Triplet<double>> entries;
-      for (std::size_t i = 0; i < held.size(); ++i) {
-        springs.rows.push_back({{{held[i].node, held[i].component, 1.0}}});
-        const auto is_here = [&](const auto& h) { return h.node == held[i].node && h.component == held[i].component; };
+      for (std::size_t i = 0; i < prescribed.size(); ++i) {
+        springs.rows.push_back({{{prescribed[i].node, prescribed[i].component, 1.0}}});
+        const auto is_here = [&](const auto& h) {
+          return h.node == prescribed[i].node && h.component == prescribed[i].component;
+        };
         if (std::any_of(cube.constraints.prescribed.begin(), cube.constraints.prescribed.end(), is_here))
           springs.own.push_back(i);
         entries.emplace_back(i, i, 4 * stiffness);
         if (i > 0) entries.emplace_back(i, i - 1, stiffness), entries.emplace_back(i - 1, i, stiffness);
       }
-      springs.stiffness.resize(static_cast<int>(held.size()), static_cast<int>(held.size()));
+      springs.stiffness.resize(static_cast<int>(prescribed.size()), static_cast<int>(prescribed.size()));
       springs.stiffness.setFromTriplets(entries.begin(), entries.end());
       for (const auto& entry : entries) {
-        const auto &a = held[static_cast<std::size_t>(entry.row())], &b = held[static_cast<std::size_t>(entry.col())];
+        const auto &a = prescribed[static_cast<std::size_t>(entry.row())], &b = prescribed[static_cast<std::size_t>(entry.col())];
         k(3 * a.node + a.component, 3 * b.node + b.component) += entry.value();
       }
       cube.constraints.prescribed.clear();

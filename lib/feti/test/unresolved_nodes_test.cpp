@@ -42,9 +42,9 @@ TEST(StateRecord, ForgetsWhatIsLongAgo)
 }
 
 // A row of points with spacings that grow, some of them open.
-std::vector<Place> row(const std::string& states, double growth = 1)
+std::vector<BandPoint> row(const std::string& states, double growth = 1)
 {
-  std::vector<Place> places;
+  std::vector<BandPoint> places;
   double x = 0, step = 1;
   for (const char c : states) {
     places.push_back({Point(x, 0, 0), c == '?'});
@@ -69,7 +69,7 @@ TEST(WidestBand, OfARingIsItsThicknessWhereverOneLooks)
 {
   constexpr int n = 41, middle = 20;
   for (const int rows : {1, 2, 4}) {
-    std::vector<Place> places;
+    std::vector<BandPoint> places;
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
         const double radius = std::hypot(i - middle, j - middle);

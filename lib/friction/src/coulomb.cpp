@@ -38,8 +38,8 @@ void CoulombSearch::count(const qp::Solution& found)
 
 // ||wanted - now|| / ||wanted|| of slip bounds at a solution, but for what rounding makes of no force at all: of multipliers of
 // the size ||b|| / ||A||.
-double CoulombSearch::change_of_radii(const std::vector<double>& wanted, const std::vector<double>& now,
-                                      const qp::Solution& at) const
+double CoulombSearch::change_of_bounds(const std::vector<double>& wanted, const std::vector<double>& now,
+                                       const qp::Solution& at) const
 {
   constexpr double rounding = 1e-10;
   const double least = at.hessian_norm > 0 ? rounding * problem_.right.b.norm2() / at.hessian_norm : 0;
@@ -71,7 +71,7 @@ void CoulombSearch::follow_law()
   at_work_ = found->radii;
   if (!found->feasible) return;
   radii_ = radii_at(&found->x);
-  change_ = change_of_radii(radii_, at_work_, *found);
+  change_ = change_of_bounds(radii_, at_work_, *found);
   converged_ = obeys_law(*found, radii_, change_);
   solution_ = std::move(found);
   solved_ = true;
@@ -86,7 +86,7 @@ void CoulombSearch::follow_cautiously()
   count(*found);
   if (!found->feasible) return;
   auto radii = radii_at(&found->x);
-  const double change = change_of_radii(radii, found->radii, *found);
+  const double change = change_of_bounds(radii, found->radii, *found);
   const auto before = std::pair(std::exchange(at_work_, found->radii), judged_);
   if (!obeys_law(*found, radii, change)) {
     std::tie(at_work_, judged_) = before;

@@ -30,7 +30,7 @@ class CoulombSearch {
   qp::SlipLaw slip_law(bool cautious) const;
   void count(const qp::Solution& found);
   bool obeys_law(qp::Solution& found, const std::vector<double>& radii, double change);
-  double change_of_radii(const std::vector<double>& wanted, const std::vector<double>& now, const qp::Solution& at) const;
+  double change_of_bounds(const std::vector<double>& wanted, const std::vector<double>& now, const qp::Solution& at) const;
   bool believable() const;
   // Of the fixed point.
   bool solve_tresca(const qp::Goal& goal);

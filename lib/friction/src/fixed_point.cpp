@@ -185,7 +185,7 @@ void CoulombSearch::fixed_point()
     solved_ = true;
     infeasible_ = 0;
     auto wanted = radii_at(&solution_->x);
-    change_ = first ? 1.0 : change_of_radii(wanted, radii_, *solution_);
+    change_ = first ? 1.0 : change_of_bounds(wanted, radii_, *solution_);
     note_response(wanted);
     converged_ = !first && at_rest(wanted, tolerance);
     idle = first || !apart || change_ < least_change ? 0 : idle + 1;

@@ -47,7 +47,7 @@ Json warning(const Warning& w)
   return json;
 }
 
-Json place(const StateSummary::Place& p)
+Json place(const StateSummary::Location& p)
 {
   return {{"coordinates", vector(p.coordinates)}, {"body", p.body}};
 }

@@ -153,7 +153,7 @@ void describe(deck::Description<RotationOptions>& d)
 void describe(deck::Description<InstanceOptions>& d)
 {
   d.help(
-      "A copy of the body, or a row of copies: it is turned by `rotate` first, then moved by `translate`, in the unit of the "
+      "A copy of the body, or a row of copies: it is rotated by `rotate` first, then moved by `translate`, in the unit of the "
       "model "
       "(after mesh.scale).");
   d.key("count", &InstanceOptions::count,

@@ -139,15 +139,15 @@ void check_uses_of_axes(const Deck& deck, deck::Document& document)
     }
     if (const auto* axes = find(support.axes, path); axes && any && axes->axis.has_value() != support.cylindrical)
       document.error(path + ".displacement", axes->axis ? "these axes are cylindrical; expected radial, tangential or axial"
-                                                        : "these axes are turned ones; expected x, y or z");
+                                                        : "these axes are rotated ones; expected x, y or z");
   }
   for (std::size_t i = 0; i < deck.loads.size(); ++i) {
     const auto& load = deck.loads[i];
     const auto path = fmt::format("loads[{}]", i);
     if (load.axes.empty()) continue;
     if (const auto* axes = find(load.axes, path); axes && axes->axis && (load.force || load.moment))
-      document.error(path + ".axes", load.force ? "a force has one direction; expected turned axes, or a traction"
-                                                : "a moment has one direction; expected turned axes");
+      document.error(path + ".axes", load.force ? "a force has one direction; expected rotated axes, or a traction"
+                                                : "a moment has one direction; expected rotated axes");
   }
 }
 

@@ -23,7 +23,7 @@ void check_motions(const std::vector<mesh::InstanceOptions>& instances, const st
     if (axisymmetric && entry.translate[0] != 0)
       document.error(at + ".translate", "an axisymmetric body is moved along its axis, y, alone; expected 0 for x");
     if (entry.rotate && axisymmetric)
-      document.error(at + ".rotate", "an axisymmetric body cannot be turned: it goes round the axis of revolution");
+      document.error(at + ".rotate", "an axisymmetric body cannot be rotated: it goes round the axis of revolution");
     else if (entry.rotate && (entry.rotate->axis[0] != 0 || entry.rotate->axis[1] != 0))
       document.error(at + ".rotate.axis", "a plane model turns about z; expected [0, 0, 1]");
     check_motions(entry.of, at + ".of", axisymmetric, document);

@@ -14,7 +14,7 @@ namespace mortise::model {
 namespace {
 
 // A boundary (of the catalogue) on a body; -1: on all.
-struct Place {
+struct BodyBoundary {
   int boundary;
   int body;
 };
@@ -22,7 +22,7 @@ struct Place {
 // What patterns can match, in the order of the mesh.
 struct Candidates {
   std::vector<std::string> boundaries;  // their place is that in the catalogue; empty: not for users (curved_surface.hpp)
-  std::vector<std::pair<std::string, Place>> on_bodies;  // body:boundary
+  std::vector<std::pair<std::string, BodyBoundary>> on_bodies;  // body:boundary
 };
 
 Candidates candidates(const partition::Decomposition& decomposition, bool with_bodies, const Communicator& comm)
@@ -44,7 +44,7 @@ Candidates candidates(const partition::Decomposition& decomposition, bool with_b
     const auto& b = decomposition.catalogue.bodies[static_cast<std::size_t>(body)];
     result.on_bodies.emplace_back(
         (b.instance.empty() ? b.name : b.instance) + ":" + result.boundaries[static_cast<std::size_t>(boundary)],
-        Place{boundary, body});
+        BodyBoundary{boundary, body});
   }
   return result;
 }
@@ -64,9 +64,9 @@ std::vector<std::string> names_for(const std::string& pattern, const Candidates&
   return names;
 }
 
-std::vector<Place> places_for(const std::string& pattern, const Candidates& candidates)
+std::vector<BodyBoundary> boundaries_for(const std::string& pattern, const Candidates& candidates)
 {
-  std::vector<Place> places;
+  std::vector<BodyBoundary> places;
   if (pattern.find(':') == std::string::npos) {
     for (std::size_t b = 0; b < candidates.boundaries.size(); ++b)
       if (!candidates.boundaries[b].empty() && matches(pattern, candidates.boundaries[b]))
@@ -90,7 +90,7 @@ void report_no_match(const std::string& pattern, const std::string& path, const 
 }
 
 // A new boundary with all faces of `places`, once each.
-void define_boundary(const std::string& name, const std::vector<Place>& places, partition::Decomposition& decomposition)
+void define_boundary(const std::string& name, const std::vector<BodyBoundary>& places, partition::Decomposition& decomposition)
 {
   const auto index = static_cast<int>(decomposition.catalogue.boundaries.size());
   decomposition.catalogue.boundaries.push_back(name);
@@ -98,7 +98,7 @@ void define_boundary(const std::string& name, const std::vector<Place>& places, 
     auto& facets = subdomain.mesh.facets;
     std::set<std::pair<Local, std::vector<Local>>> taken;  // cell, nodes
     for (std::size_t f = 0, count = facets.cells.size(); f < count; ++f) {
-      const bool meant = std::any_of(places.begin(), places.end(), [&](const Place& place) {
+      const bool meant = std::any_of(places.begin(), places.end(), [&](const BodyBoundary& place) {
         return place.boundary == facets.boundary[f] && (place.body < 0 || place.body == subdomain.body);
       });
       const std::vector<Local> nodes(facets.cells[f].begin(), facets.cells[f].end());
@@ -220,7 +220,7 @@ Contacts resolve_patterns(const Deck& deck, deck::Document& document, partition:
   std::set<std::string> defined;
   const auto resolve = [&](const std::string& name, const std::string& path) {
     if (!is_pattern(name) || !defined.insert(name).second) return;
-    const auto places = places_for(name, known);
+    const auto places = boundaries_for(name, known);
     if (places.empty()) report_no_match(name, path, known, document);
     define_boundary(name, places, decomposition);
   };

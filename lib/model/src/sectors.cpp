@@ -37,7 +37,8 @@ class Checks {
   void run()
   {
     for (const auto& [name, coupling] : deck_.couplings)
-      if (axis_.has(place(coupling.point)) && !lies_along_a_coordinate(axis_) && (coupling.kind == "rigid" || is_held(name)))
+      if (axis_.has(place(coupling.point)) && !lies_along_a_coordinate(axis_) &&
+          (coupling.kind == "rigid" || is_prescribed(name)))
         document_.error(
             "couplings." + name + ".point",
             "on the axis of sectors a point moves along it and turns about it, as components of motions can say of x, "
@@ -55,7 +56,7 @@ class Checks {
                                 spell(axis_.at), spell(axis_.along), what));
   }
 
-  bool is_held(const std::string& coupling) const
+  bool is_prescribed(const std::string& coupling) const
   {
     return std::ranges::any_of(deck_.supports, [&](const auto& support) { return support.coupling == coupling; });
   }

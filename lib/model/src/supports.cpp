@@ -93,11 +93,11 @@ std::vector<mesh::Surface> Model::surfaces_prescribed_along_normals(const LoadSt
   return surfaces;
 }
 
-std::vector<bool> Model::held(const std::vector<bool>& touched, const Communicator& comm) const
+std::vector<bool> Model::supported(const std::vector<bool>& touched, const Communicator& comm) const
 {
   const std::size_t bodies = decomposition_.catalogue.bodies.size(), couplings = deck_.couplings.size();
   const auto places = nodes_at_points(comm);
-  std::vector<double> faces((couplings + 1) * bodies, 0.0);  // of each body in each coupling; last: held by supports
+  std::vector<double> faces((couplings + 1) * bodies, 0.0);  // of each body in each coupling; last: under supports
   const auto count_faces = [&](const std::string& name, std::size_t row) {
     const auto [boundary, on_body] = select(name);
     for (const int body : partition::boundary_surface(decomposition_, boundary, on_body).body)
@@ -129,8 +129,8 @@ std::vector<bool> Model::held(const std::vector<bool>& touched, const Communicat
     if (faces[couplings * bodies + b] > 0) result[b] = true;
   for (bool more = true; std::exchange(more, false);)
     for (const auto& group : tied) {
-      const auto is_held = [&](std::size_t b) { return result[b]; };
-      if (std::ranges::none_of(group, is_held) || std::ranges::all_of(group, is_held)) continue;
+      const auto is_supported = [&](std::size_t b) { return result[b]; };
+      if (std::ranges::none_of(group, is_supported) || std::ranges::all_of(group, is_supported)) continue;
       for (const std::size_t b : group) result[b] = true;
       more = true;
     }

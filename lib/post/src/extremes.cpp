@@ -85,7 +85,7 @@ void at_nodes(const partition::Decomposition& decomposition, const ExtremeProbe&
 }
 
 // At places in bodies of boundary elements.
-void at_places(const partition::Decomposition& decomposition, const ExtremeProbe& probe, const std::vector<Place>& places,
+void at_places(const partition::Decomposition& decomposition, const ExtremeProbe& probe, const std::vector<PointInCell>& places,
                const Values& values, Search& search)
 {
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -97,9 +97,9 @@ void at_places(const partition::Decomposition& decomposition, const ExtremeProbe
   }
 }
 
-std::vector<Place> places_of(const std::vector<PointInBody>& points)
+std::vector<PointInCell> places_of(const std::vector<PointInBody>& points)
 {
-  std::vector<Place> places;
+  std::vector<PointInCell> places;
   for (const auto& point : points) places.push_back(point.place);
   return places;
 }

@@ -70,8 +70,8 @@ Eigen::VectorXd von_mises_of_cells(const mesh::Cells& cells, const Eigen::Matrix
 }
 
 // In a cell of finite elements.
-void interpolate(const ElasticBodies& bodies, const StressField& stress, const Eigen::VectorXd& displacement, const Place& place,
-                 Eigen::Index row, Values& values)
+void interpolate(const ElasticBodies& bodies, const StressField& stress, const Eigen::VectorXd& displacement,
+                 const PointInCell& place, Eigen::Index row, Values& values)
 {
   const auto& cells = bodies.decomposition.subdomains[place.subdomain].mesh.cells;
   const Eigen::Index d = bodies.decomposition.catalogue.dimension;
@@ -90,7 +90,7 @@ void interpolate(const ElasticBodies& bodies, const StressField& stress, const E
 
 // At places of any subdomains of this rank.
 Values evaluate(const ElasticBodies& bodies, const StressField& stress, const std::vector<Eigen::VectorXd>& displacement,
-                const std::vector<Place>& places, Found& largest)
+                const std::vector<PointInCell>& places, Found& largest)
 {
   const auto count = static_cast<Eigen::Index>(places.size());
   Values result{Eigen::MatrixXd::Zero(count, 3), Eigen::MatrixXd::Zero(count, 6)};
@@ -144,7 +144,7 @@ Interior evaluate_interior(const ElasticBodies& bodies, const Probes& probes, co
   collectively(comm, [&] {
     if (probes.cells) nodes_inside(bodies, stress, result, largest);
     const auto evaluate_points = [&](const std::vector<PointInBody>& points) {
-      std::vector<Place> places;
+      std::vector<PointInCell> places;
       for (const auto& point : points) places.push_back(point.place);
       return evaluate(bodies, stress, displacement, places, largest);
     };

@@ -21,7 +21,7 @@ constexpr double beyond_the_nodes = 0.1;  // of a cell's diagonal, how far curve
 
 struct Candidate {
   double distance = std::numeric_limits<double>::infinity();  // 0 if the point lies in the body
-  Place place;
+  PointInCell place;
 };
 
 struct Located {
@@ -56,7 +56,7 @@ std::map<std::pair<std::size_t, int>, Candidate> candidates(const partition::Dec
     const auto& mesh = solid(decomposition.subdomains[s]);
     const int body = decomposition.subdomains[s].body;
     const double within = on_surface * sizes[static_cast<std::size_t>(body)];
-    const auto take = [&](std::size_t point, double distance, double allowed, const Place& place) {
+    const auto take = [&](std::size_t point, double distance, double allowed, const PointInCell& place) {
       if (!(distance <= std::max(within, allowed))) return;
       auto& best = result[{point, body}];
       if (const double counts = distance <= within ? 0 : distance; counts < best.distance) best = {counts, place};

@@ -102,17 +102,15 @@ VectorXd CondensedNewton::inverse_times(const VectorXd& r) const
   return x;
 }
 
-CondensedNewton::Point CondensedNewton::solve(const VectorXd& b, const VectorXd& e, const FeasibleSet& set,
-                                              const Point* near) const
+CondensedNewton::Result CondensedNewton::solve(const VectorXd& b, const VectorXd& e, const FeasibleSet& set,
+                                               const Result* near) const
 {
   StateSearch search({matrices_, contact_, set.compact(), b(constrained_) - coupling_.transpose() * b(others_),
                       e - motion_.transpose() * b(others_)});
-  const auto go_on = [&] {
-    return search.from(near->x(constrained_), near->nu, near->reaction(constrained_), near->converged);
-  };
+  const auto go_on = [&] { return search.from(near->x(constrained_), near->nu, near->reaction(constrained_), near->converged); };
   const bool converged = near ? go_on() : search.from_anywhere();
   if (converged) search.polish();
-  Point point = search.point();
+  Result point = search.point();
   point.converged = converged;
   const VectorXd contact = point.x;
   point.x.resize(b.size());

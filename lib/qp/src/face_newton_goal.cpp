@@ -59,17 +59,17 @@ bool FaceNewton::is_compatible(const Run& run) const
   return goal.incompatibility(run.state.z, run.result.nu) <= enough;
 }
 
-// Whether radii that follow the solution have settled: an error that is small beside the mesh's may leave a joint beyond its
+// Whether radii that follow the solution are at rest: an error that is small beside the mesh's may leave a joint beyond its
 // friction.
-bool FaceNewton::radii_settled(const Run& run) const
+bool FaceNewton::radii_at_rest(const Run& run) const
 {
-  constexpr double settled = 2e-3;
+  constexpr double at_rest = 2e-3;
   if (!run.followed) return true;
   double square = 0;
   for (const auto& disc : run.problem.set.discs())
     if (std::isfinite(disc.radius)) square += disc.radius * disc.radius;
   const double change = run.mismatch * step_length / norm_;
-  return change <= settled * std::sqrt(programme_.equality.communicator().sum(square));
+  return change <= at_rest * std::sqrt(programme_.equality.communicator().sum(square));
 }
 
 // Whether the residual or the error at z is what the goal asks for.
@@ -109,7 +109,7 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
     solved = result.error <= goal.exact * goal.energy_norm(z, result.nu);
   if (!goal.allowed_error || !solved) return solved;
   if (!contact()) return false;
-  if (radii_settled(run) && is_compatible(run)) return true;
+  if (radii_at_rest(run) && is_compatible(run)) return true;
   run.doubtful = true;
   return false;
 }
@@ -140,7 +140,7 @@ bool FaceNewton::is_exact_but_for_states(Run& run, const Projection& natural)
   if (!(goal.exact > 0) || !goal.allowed_error || !goal.incompatibility || !std::isfinite(run.result.error)) return false;
   if (run.exact_but_for_states && run.result.error >= run.exact_but_for_states->result.error) return false;
   if (run.allowed < 0) run.allowed = goal.allowed_error(run.state.z, run.result.nu);
-  if (!(run.result.error <= certain * run.allowed) || run.worst() > Goal::largest_residual * run.size || !radii_settled(run))
+  if (!(run.result.error <= certain * run.allowed) || run.worst() > Goal::largest_residual * run.size || !radii_at_rest(run))
     return false;
   Projection firm{natural.point, Vector(natural.argument.getMap()), natural.nu};
   firm.argument.putScalar(std::numeric_limits<double>::infinity());  // as if all states were decided

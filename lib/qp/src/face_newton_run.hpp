@@ -75,8 +75,8 @@ struct FaceNewton::Run {
   int since_best = 0;  // active sets
 
   // The point that is to be the solution if nothing better comes of it, see is_exact_but_for_states().
-  struct Point {
-    explicit Point(const Run& run)
+  struct Kept {
+    explicit Kept(const Run& run)
         : z(run.state.z, Teuchos::Copy), g(run.state.g, Teuchos::Copy), result(run.result), residual(run.residual)
     {
     }
@@ -84,7 +84,7 @@ struct FaceNewton::Run {
     Solution result;
     double residual;
   };
-  std::optional<Point> exact_but_for_states = {};
+  std::optional<Kept> exact_but_for_states = {};
   void go_back()
   {
     auto& point = *exact_but_for_states;

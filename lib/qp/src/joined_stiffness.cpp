@@ -29,13 +29,13 @@ int stored_at(const SparseMatrix& matrix, int row, int column)
 }  // namespace
 
 JoinedStiffness::JoinedStiffness(const SparseMatrices& matrices, std::vector<Block> blocks)
-    : matrices_(matrices), blocks_(std::move(blocks)), place_(static_cast<std::size_t>(matrices.b.rows()))
+    : matrices_(matrices), blocks_(std::move(blocks)), in_block_(static_cast<std::size_t>(matrices.b.rows()))
 {
   std::vector<Eigen::Triplet<double>> pattern;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     Part part;
     for (std::size_t i = 0; i < blocks_[k].size(); ++i) {
-      place_[static_cast<std::size_t>(blocks_[k][i])] = {static_cast<int>(k), static_cast<int>(i)};
+      in_block_[static_cast<std::size_t>(blocks_[k][i])] = {static_cast<int>(k), static_cast<int>(i)};
       for (decltype(matrices_.b)::InnerIterator it(matrices_.b, blocks_[k][i]); it; ++it)
         part.column.push_back(static_cast<int>(it.col()));
     }

@@ -22,7 +22,7 @@ void gradient_step(const FeasibleSet& set, double a, const Vector& v, Vector& x)
 
 }  // namespace
 
-double reduced_gradient(const FeasibleSet& set, const Point& point, double a)
+double reduced_gradient(const FeasibleSet& set, const Iterate& point, double a)
 {
   Vector moved(point.x, Teuchos::Copy);
   gradient_step(set, a, point.gradient, moved);
@@ -30,8 +30,8 @@ double reduced_gradient(const FeasibleSet& set, const Point& point, double a)
   return moved.norm2() / a;
 }
 
-void mpgp(const Product& hessian, const FeasibleSet& set, Point& point, double& norm, const MpgpOptions& options,
-          const std::function<bool(double, const Point&)>& done)
+void mpgp(const Product& hessian, const FeasibleSet& set, Iterate& point, double& norm, const MpgpOptions& options,
+          const std::function<bool(double, const Iterate&)>& done)
 {
   auto& [x, g] = point;
   const auto map = x.getMap();

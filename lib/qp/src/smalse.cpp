@@ -68,7 +68,7 @@ void take_start_steps(const Problem& problem, double norm, Projection& feasible,
 }
 
 // L = 1/2 z'(g + c) with g = H z + c, c = P(A x0 - b)/nrm + G' nu. Collective.
-double value_of(const Problem& problem, const Vector& constant, const Eigen::VectorXd& nu, const Point& point)
+double value_of(const Problem& problem, const Vector& constant, const Eigen::VectorXd& nu, const Iterate& point)
 {
   Vector c(constant, Teuchos::Copy);
   problem.equality.add_transpose(1, nu, c);
@@ -124,7 +124,7 @@ class SmalseRun {
  private:
   void report(const char* what, const Vector* at = nullptr) const;
   bool is_solved() const { return measure_ <= limit_ && residual_ <= limit_; }
-  bool is_minimised(double reduced, const Point& at);
+  bool is_minimised(double reduced, const Iterate& at);
 
   const Problem& problem_;
   const Observer& observer_;
@@ -133,7 +133,7 @@ class SmalseRun {
   const Vector& constant_;
   Vector origin_;
   FeasibleSet set_;  // of z
-  Point point_;
+  Iterate point_;
   Eigen::VectorXd nu_, defect_;  // defect: Q z as a step of nu
   double largest_ = 1;           // ||P A P / nrm + Q||, raised by mpgp when it shows to be more
   double residual_ = 0, measure_ = 0;
@@ -148,7 +148,7 @@ void SmalseRun::report(const char* what, const Vector* at) const
 }
 
 // Whether the inner iteration may end here. Takes note of both residuals.
-bool SmalseRun::is_minimised(double reduced, const Point& at)
+bool SmalseRun::is_minimised(double reduced, const Iterate& at)
 {
   measure_ = reduced;
   if (problem_.equality.size() > 0) {
@@ -167,7 +167,7 @@ void SmalseRun::iterate()
   const Product product = [&](const Vector& z, Vector& y) { lagrangian.apply(z, y); };
   double previous = -std::numeric_limits<double>::infinity();
   while (true) {
-    mpgp(product, set_, point_, largest_, {}, [&](double reduced, const Point& at) { return is_minimised(reduced, at); });
+    mpgp(product, set_, point_, largest_, {}, [&](double reduced, const Iterate& at) { return is_minimised(reduced, at); });
     ++result_.outer_iterations;
     {
       Vector at(origin_, Teuchos::Copy);

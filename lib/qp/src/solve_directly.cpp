@@ -85,7 +85,7 @@ class DirectSolver : public Solver {
  private:
   // From the states of the problem before or from those that are suggested, if there are any; else from anywhere with the
   // matrices that served last, or the other ones, if there are any, where these do not tell the states of all constraints.
-  ExplicitProgramme::Point solve_with_matrices(const Problem& problem, const std::optional<Solution>& before, const Goal& goal)
+  ExplicitProgramme::Result solve_with_matrices(const Problem& problem, const std::optional<Solution>& before, const Goal& goal)
   {
     if (before && matrices_.go_on) {
       Vector reaction(before->gradient, Teuchos::Copy);
@@ -116,7 +116,7 @@ class DirectSolver : public Solver {
   }
 
   // Takes away what the matrices differ by, and accepts the solution if it can be judged and will do.
-  void improve(const Problem& problem, ExplicitProgramme::Point& found, const Goal& goal)
+  void improve(const Problem& problem, ExplicitProgramme::Result& found, const Goal& goal)
   {
     if (matrices_.differs) correct(problem, found, goal);
     if (matrices_.rough_products && goal.allowed_error) accepted_ = judged(problem, found, goal);
@@ -138,7 +138,7 @@ class DirectSolver : public Solver {
   // off by no more than d in the norm of A^-1. Where that is nothing, it is the solution, though products with A may be too rough
   // for what states follow from: of a thin body they turn figures that x does not have into motions that open contact. One
   // product.
-  std::optional<Solution> judged(const Problem& problem, const ExplicitProgramme::Point& found, const Goal& goal)
+  std::optional<Solution> judged(const Problem& problem, const ExplicitProgramme::Result& found, const Goal& goal)
   {
     if (!found.reaction) return {};
     Solution result(found.x, found.x, found.nu);
@@ -180,13 +180,13 @@ class DirectSolver : public Solver {
   // With another matrix M in place of A a solution x leaves the defect A x - b + G'nu - s, s = M x - b + G'nu, which is (A - M)
   // x: less that, b gives the next one [Stetter, The defect correction principle and discretization methods, Numer. Math. 29
   // (1978)]. One product each.
-  void correct(const Problem& problem, ExplicitProgramme::Point& found, const Goal& goal)
+  void correct(const Problem& problem, ExplicitProgramme::Result& found, const Goal& goal)
   {
     const auto& equality = problem.equality;
     const double enough = of_goal * std::min(goal.residual, asked_at_least) * relative_size(problem, goal.residual);
     Vector linear(problem.right.b, Teuchos::Copy), defect(linear.getMap());
     Eigen::VectorXd right_side = problem.right.e;
-    std::optional<ExplicitProgramme::Point> best;
+    std::optional<ExplicitProgramme::Result> best;
     double least = std::numeric_limits<double>::infinity();
     for (int step = 0; !problem.hessian.exhausted(); ++step) {
       const Eigen::VectorXd lacking = problem.right.e - equality.apply(found.x);
@@ -213,7 +213,7 @@ class DirectSolver : public Solver {
   }
 
   // Whether a defect is one of displacements that take hardly any energy.
-  bool is_nothing(const Vector& defect, const ExplicitProgramme::Point& found, const Goal& goal) const
+  bool is_nothing(const Vector& defect, const ExplicitProgramme::Result& found, const Goal& goal) const
   {
     if (!goal.energy_norm) return true;
     Vector error(defect.getMap());
@@ -225,9 +225,9 @@ class DirectSolver : public Solver {
   Means means_;
   ExplicitProgramme matrices_;
   std::optional<ExplicitProgramme> others_;
-  std::optional<Solution> suggested_;              // looked at once
-  std::optional<Solution> sliding_, accepted_;     // told once
-  std::optional<ExplicitProgramme::Point> found_;  // by the matrices, if it can be judged
+  std::optional<Solution> suggested_;               // looked at once
+  std::optional<Solution> sliding_, accepted_;      // told once
+  std::optional<ExplicitProgramme::Result> found_;  // by the matrices, if it can be judged
   std::unique_ptr<Solver> faces_;
 };
 

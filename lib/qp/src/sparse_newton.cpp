@@ -29,12 +29,10 @@ FeasibleSet with_equations(const FeasibleSet& set, Eigen::Index rows)
 
 }  // namespace
 
-SparseNewton::SparseNewton(SparseMatrices matrices, bool patient) : matrices_(std::move(matrices)), patient_(patient)
-{
-}
+SparseNewton::SparseNewton(SparseMatrices matrices, bool patient) : matrices_(std::move(matrices)), patient_(patient) {}
 
-CondensedNewton::Point SparseNewton::solve(const VectorXd& f, const VectorXd& c, const FeasibleSet& set,
-                                           const CondensedNewton::Point* near) const
+CondensedNewton::Result SparseNewton::solve(const VectorXd& f, const VectorXd& c, const FeasibleSet& set,
+                                            const CondensedNewton::Result* near) const
 {
   const FeasibleSet whole = with_equations(set, matrices_.b.rows());
   StateSearch search({std::make_unique<SparseSystem>(matrices_, whole), whole, -c, -f}, patient_);
@@ -68,8 +66,7 @@ struct SparseInverse::Data {
     std::vector<Eigen::MatrixXd> z;
     for (int row = 0; row < matrices.b.rows(); ++row) {
       double own = matrices.s[row];
-      for (decltype(matrices.b)::InnerIterator it(matrices.b, row); it; ++it)
-        own += it.value() * it.value() / diagonal[it.col()];
+      for (decltype(matrices.b)::InnerIterator it(matrices.b, row); it; ++it) own += it.value() * it.value() / diagonal[it.col()];
       compliance[row] += way_of_inverse * own;
       z.emplace_back(Eigen::MatrixXd::Constant(1, 1, 1 / compliance[row]));
     }
@@ -79,9 +76,7 @@ struct SparseInverse::Data {
   }
 };
 
-SparseInverse::SparseInverse(SparseMatrices matrices) : data_(std::make_unique<Data>(std::move(matrices)))
-{
-}
+SparseInverse::SparseInverse(SparseMatrices matrices) : data_(std::make_unique<Data>(std::move(matrices))) {}
 
 SparseInverse::~SparseInverse() = default;
 SparseInverse::SparseInverse(SparseInverse&&) noexcept = default;

@@ -145,7 +145,8 @@ SparseSystem::Moving SparseSystem::moving(const Guess& guess) const
 {
   const auto& blocks = stiffness_.blocks();
   std::vector<std::vector<const Move*>> of_block(blocks.size());
-  for (const auto& move : guess.moves) of_block[static_cast<std::size_t>(stiffness_.place(move.index[0]).block)].push_back(&move);
+  for (const auto& move : guess.moves)
+    of_block[static_cast<std::size_t>(stiffness_.in_block(move.index[0]).block)].push_back(&move);
   Moving result;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     const auto n = static_cast<Index>(blocks[k].size()), count = static_cast<Index>(of_block[k].size());
@@ -155,7 +156,7 @@ SparseSystem::Moving SparseSystem::moving(const Guess& guess) const
       const Move& move = *of_block[k][static_cast<std::size_t>(j)];
       curvature[j] = move.curvature;
       for (std::size_t i = 0; i < 3 && move.index[i] >= 0; ++i) {
-        const Index at = stiffness_.place(move.index[i]).within;
+        const Index at = stiffness_.in_block(move.index[i]).within;
         trial(at, j) = move.trial[i];
         test(j, at) = move.test[i];
       }
@@ -222,7 +223,7 @@ class SparseSystem::Step : public PathFactor {
     const auto& stiffness = system.stiffness_;
     const auto& blocks = stiffness.blocks();
     for (const auto& entry : entries) {
-      const auto row = stiffness.place(entry.row), column = stiffness.place(entry.column);
+      const auto row = stiffness.in_block(entry.row), column = stiffness.in_block(entry.column);
       theta_[static_cast<std::size_t>(row.block)](row.within, column.within) += entry.value;
     }
     std::vector<MatrixXd> near = theta_;
@@ -237,7 +238,7 @@ class SparseSystem::Step : public PathFactor {
       if (even == softer) inverse_[k] = near[k];
     }
     for (const Local i : pinned) {
-      const auto [block, within] = stiffness.place(i);
+      const auto [block, within] = stiffness.in_block(i);
       for (auto* matrix : {&inverse_[static_cast<std::size_t>(block)], &near[static_cast<std::size_t>(block)]}) {
         matrix->row(within).setZero();
         matrix->col(within).setZero();

@@ -2,10 +2,10 @@
 //
 //     S x - B u + c = s,   K u + B'x = f,   s in the normal cone of Omega at x,
 //
-// which is that of contact_system.hpp with W = S, H = -B', C = K, nu = u, b = -c and e = -f. A linear problem has, beside these, a
-// matrix of up to three rows for each point of contact: x = base + Z (B u - ..). With x eliminated it is K + B'Z B, sparse and of
-// one pattern for all of them. Its symmetric part without what normal forces do to friction is positive definite: factors of that
-// and a few steps of GMRES solve it [Saad and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986)].
+// which is that of contact_system.hpp with W = S, H = -B', C = K, nu = u, b = -c and e = -f. A linear problem has, beside these,
+// a matrix of up to three rows for each point of contact: x = base + Z (B u - ..). With x eliminated it is K + B'Z B, sparse and
+// of one pattern for all of them. Its symmetric part without what normal forces do to friction is positive definite: factors of
+// that and a few steps of GMRES solve it [Saad and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986)].
 //
 // Constraints that do not give way at all would be infinitely stiff. They give way by a tiny part of what their nodes do, and
 // solutions are repeated with what is left.
@@ -18,9 +18,9 @@
 
 namespace mortise::qp {
 
-/// K + B'Z B for one Z after another, Z in blocks of unknowns that belong together. The factor is that of the last Z, no object of
-/// its own: all of them share one analysis of the pattern and its memory, the largest of a direct solution. Heavy: moves, does not
-/// copy.
+/// K + B'Z B for one Z after another, Z in blocks of unknowns that belong together. The factor is that of the last Z, no object
+/// of its own: all of them share one analysis of the pattern and its memory, the largest of a direct solution. Heavy: moves, does
+/// not copy.
 class JoinedStiffness {
  public:
   /// One block: its unknowns.
@@ -30,14 +30,14 @@ class JoinedStiffness {
 
   const std::vector<Block>& blocks() const { return blocks_; }
   /// Of each unknown of x: its block, and which one it is there.
-  struct Place {
+  struct InBlock {
     int block;
     int within;
   };
-  Place place(Local unknown) const { return place_[static_cast<std::size_t>(unknown)]; }
+  InBlock in_block(Local unknown) const { return in_block_[static_cast<std::size_t>(unknown)]; }
 
-  /// Takes Z and a symmetric positive semidefinite matrix that is near it for the factor, one matrix for each block. Returns false
-  /// if K + B'Z B is singular.
+  /// Takes Z and a symmetric positive semidefinite matrix that is near it for the factor, one matrix for each block. Returns
+  /// false if K + B'Z B is singular.
   [[nodiscard]] bool factorize(std::vector<Eigen::MatrixXd> z, const std::vector<Eigen::MatrixXd>& near);
   /// (K + B'Z B)^-1 r, to some figures.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const;
@@ -54,7 +54,7 @@ class JoinedStiffness {
 
   const SparseMatrices& matrices_;
   std::vector<Block> blocks_;
-  std::vector<Place> place_;
+  std::vector<InBlock> in_block_;
   std::vector<Part> parts_;
   SparseMatrix stiffness_, lower_;  // K with room for B'Z B, and the sum of both
   std::unique_ptr<Cholesky> factor_;

@@ -22,7 +22,7 @@ class StateSearch {
   /// Steps of GMRES leave what settles states, but not all figures: thin plates bend by 1e8 times what decides about contact.
   void polish();
 
-  const CondensedNewton::Point& point() const { return point_; }
+  const CondensedNewton::Result& point() const { return point_; }
   Eigen::VectorXd reaction() const { return programme_.gradient(point_.x, point_.nu); }
 
  private:
@@ -59,7 +59,7 @@ class StateSearch {
   ConstraintStates states_;
   bool sparing_;  // with factors: what takes few is all that is tried,
   bool patient_;  // at first
-  CondensedNewton::Point point_;
+  CondensedNewton::Result point_;
   bool unbounded_ = false;     // how the last guesses ended,
   Eigen::VectorXd last_step_;  // and their last step of nu
   double softest_ = 0;

@@ -21,7 +21,7 @@ CondensedMatrices matrices_of(const MatrixProgramme& p, MatrixXd c)
 }
 
 // Some steps from nowhere, until nothing becomes nearer.
-CondensedNewton::Point walk(const CondensedMatrices& matrices, const MatrixProgramme& p, double enough = 1e-15, int most = 100)
+CondensedNewton::Result walk(const CondensedMatrices& matrices, const MatrixProgramme& p, double enough = 1e-15, int most = 100)
 {
   const CondensedProgramme programme(matrices, p.a.llt(), p.set, p.b, p.e);
   auto path = programme.path_from(VectorXd::Ones(p.b.size()), VectorXd::Zero(p.e.size()));

@@ -141,7 +141,7 @@ std::vector<VectorXd> brute_force(const MatrixProgramme& p)
     const Eigen::FullPivLU<MatrixXd> factor(matrix);
     if (factor.isInvertible()) {
       const VectorXd all = factor.solve(right);
-      const CondensedNewton::Point point{all.head(n), all.tail(m), true, 0};
+      const CondensedNewton::Result point{all.head(n), all.tail(m), true, 0};
       const auto same = [&](const VectorXd& x) { return (x - point.x).norm() < 1e-8 * (1 + x.norm()); };
       if (violation(p, point) < 1e-10 && std::none_of(found.begin(), found.end(), same)) found.push_back(point.x);
     }

@@ -21,12 +21,12 @@ struct MatrixProgramme {
   FeasibleSet set;
 
   CondensedNewton condensed() const { return {a, g, MatrixXd::Zero(g.rows(), g.rows()), set}; }
-  CondensedNewton::Point solve() const { return condensed().solve(b, e, set); }
+  CondensedNewton::Result solve() const { return condensed().solve(b, e, set); }
 };
 
 // How far x and nu are from the conditions of a solution, over the size of forces and of gaps. Nothing of it comes from the code
 // under test.
-inline double violation(const MatrixProgramme& p, const CondensedNewton::Point& point)
+inline double violation(const MatrixProgramme& p, const CondensedNewton::Result& point)
 {
   const auto &x = point.x, &nu = point.nu;
   if (!x.allFinite() || !nu.allFinite()) return std::numeric_limits<double>::infinity();

@@ -28,8 +28,8 @@ class DenseProgramme : public ActiveSetPreconditioner {
   }
   void fix(std::span<const Local>, std::span<const SlipDirection>) override {}
 
-  ExplicitProgramme::Point solve(const RightHandSide& right) const { return solve(right.b, right.e, nullptr); }
-  ExplicitProgramme::Point solve(const Vector& b, const Eigen::VectorXd& e, const ExplicitProgramme::Point* near) const
+  ExplicitProgramme::Result solve(const RightHandSide& right) const { return solve(right.b, right.e, nullptr); }
+  ExplicitProgramme::Result solve(const Vector& b, const Eigen::VectorXd& e, const ExplicitProgramme::Result* near) const
   {
     FeasibleSet set = RandomProgramme::bounds_and_discs(RandomProgramme::n);  // of all ranks: all discs are alike
     const auto discs = programme_.set.discs();
@@ -37,7 +37,7 @@ class DenseProgramme : public ActiveSetPreconditioner {
     constexpr auto n = RandomProgramme::n;
     const CondensedNewton newton(programme_.dense + compliance_ * Eigen::MatrixXd::Identity(n, n), programme_.g,
                                  Eigen::MatrixXd::Zero(programme_.g.rows(), programme_.g.rows()), set);
-    CondensedNewton::Point from;
+    CondensedNewton::Result from;
     if (near) from = {gathered(near->x, world()), near->nu, true, 0, gathered(*near->reaction, world())};
     const auto found = newton.solve(gathered(b, world()), e, set, near ? &from : nullptr);
     return {local_part(found.x, programme_.map), found.nu, found.converged, local_part(found.reaction, programme_.map)};
@@ -140,7 +140,7 @@ TEST(Solvers, ANearbyMatrixIsCorrectedByAFewProducts)
     ExplicitProgramme programme{matrices,
                                 [matrices](const RightHandSide& right, const FeasibleSet&) { return matrices->solve(right); }};
     programme.go_on = [matrices](const RightHandSide&, const Vector& b, const Eigen::VectorXd& e, const FeasibleSet&,
-                                 const ExplicitProgramme::Point& near) { return matrices->solve(b, e, &near); };
+                                 const ExplicitProgramme::Result& near) { return matrices->solve(b, e, &near); };
     programme.differs = true;
     return programme;
   };
@@ -161,7 +161,7 @@ TEST(Solvers, ADirectSolutionBeginsWithTheStatesBefore)
       ExplicitProgramme programme{
           matrices, [&anew, matrices](const RightHandSide& right, const FeasibleSet&) { return ++anew, matrices->solve(right); }};
       programme.go_on = [&, matrices](const RightHandSide&, const Vector& b, const Eigen::VectorXd& e, const FeasibleSet&,
-                                      const ExplicitProgramme::Point& near) {
+                                      const ExplicitProgramme::Result& near) {
         ++on;
         auto found = matrices->solve(b, e, &near);
         EXPECT_TRUE(found.converged);

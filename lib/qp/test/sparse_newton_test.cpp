@@ -10,8 +10,8 @@
 namespace mortise::qp {
 namespace {
 
-// A chain of points with springs between them that press against something: x, y and z of point i are the unknowns 3 i, 3 i + 1 and
-// 3 i + 2 of K. Where its ends are not held it has a motion along each axis that it feels something of.
+// A chain of points with springs between them that press against something: x, y and z of point i are the unknowns 3 i, 3 i + 1
+// and 3 i + 2 of K. Where its ends are not held it has a motion along each axis that it feels something of.
 struct Chain {
   static constexpr int points = 24, n = 3 * points;
   SparseMatrices matrices;
@@ -109,9 +109,8 @@ void expect_as_dense(const Chain& chain, int seed, Census& census)
   ASSERT_TRUE(expected.converged) << seed;
   EXPECT_LT((found.x - expected.x).norm(), 1e-7 * expected.x.norm()) << seed;
   // A x - b + G'nu = s tells nu; where all slips, motions are not the dense ones.
-  CondensedNewton::Point point{found.x, VectorXd::Zero(p.g.rows())};
-  if (p.g.rows() > 0)
-    point.nu = (p.g * p.g.transpose()).llt().solve(p.g * (found.reaction - p.a * found.x + p.b));
+  CondensedNewton::Result point{found.x, VectorXd::Zero(p.g.rows())};
+  if (p.g.rows() > 0) point.nu = (p.g * p.g.transpose()).llt().solve(p.g * (found.reaction - p.a * found.x + p.b));
   EXPECT_LT(violation(p, point), 1e-7) << seed;
   EXPECT_LT((chain.forces(found.nu) + chain.matrices.b.transpose() * found.x - chain.f).norm(), 1e-9 * chain.f.norm());
   census.add(p, found.x);
@@ -132,8 +131,7 @@ TEST_P(OfEveryLaw, IsTheDenseSolution)
 TEST(SparseNewton, IsTheDenseSolutionWithoutFriction)
 {
   Census census;
-  for (int seed = 1; seed <= 8; ++seed)
-    expect_as_dense(Chain(seed, 0, true, 0, 0), seed, census);
+  for (int seed = 1; seed <= 8; ++seed) expect_as_dense(Chain(seed, 0, true, 0, 0), seed, census);
   EXPECT_GT(census.open, 10);
   EXPECT_GT(census.closed, 40);
 }

@@ -22,7 +22,7 @@
 namespace mortise::contact {
 
 /// The two sides of a contact, this rank's faces of each. Contacts that have their primary side in common, as the rollers of a
-/// ring, share it; an obstacle has none; that of a cyclic pair is turned to where it meets the secondary side (see cyclic.hpp).
+/// ring, share it; an obstacle has none; that of a cyclic pair is rotated to where it meets the secondary side (see cyclic.hpp).
 struct Pair {
   Options options;
   mesh::Surface secondary;

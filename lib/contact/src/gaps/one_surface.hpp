@@ -31,7 +31,7 @@ class CurvedFaces {
 class OneSurface {
  public:
   OneSurface() = default;
-  /// `rotation`: of the primary side, if it is turned. Collective.
+  /// `rotation`: of the primary side, if it is rotated. Collective.
   OneSurface(const Side& secondary, const SurfaceNodes& surface_nodes, const Side& primary, const CurvedFaces& faces,
              const std::optional<mesh::Motion>& rotation, const Communicator& comm);
 

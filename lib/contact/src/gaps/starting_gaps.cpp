@@ -46,7 +46,7 @@ StartingGaps::Gaps StartingGaps::at_node(std::size_t place, bool nearest, const 
   return {mesh, of(points_.gap(place, direction, mean_start, start()))};
 }
 
-StartingGaps::Gaps StartingGaps::between_nodes(const PlaceBetween& place, const Point& direction)
+StartingGaps::Gaps StartingGaps::between_nodes(const ContactPoint& place, const Point& direction)
 {
   const auto p = place.surface_node;
   const auto gap = [&](const Rays::GapOf& gap_of) {

@@ -34,7 +34,7 @@ class StartingGaps {
   Gaps at_node(std::size_t place, bool nearest, const Point& at, const Point& direction, double mean,
                std::span<const Term> terms);
   /// Infinite if lines from there meet nothing.
-  Gaps between_nodes(const PlaceBetween& place, const Point& direction);
+  Gaps between_nodes(const ContactPoint& place, const Point& direction);
 
   /// Whether a gap is 0 because both faces are parts of one surface of the geometry.
   bool by_geometry(double gap) const { return one_surface_.anywhere() && gap == 0; }

@@ -9,7 +9,7 @@
 #include "integrals/covered_basis.hpp"
 #include "integrals/covered_face.hpp"
 #include "integrals/pieces.hpp"
-#include "rows/places_between.hpp"
+#include "rows/contact_points.hpp"
 #include "search/line_of_sight.hpp"
 #include "search/nearest_points.hpp"
 #include "search/tree.hpp"

@@ -18,7 +18,7 @@ constexpr double same_normal_at_bond = 0.99;                    // cosine
 constexpr double nothing_of_row = 1e-9;
 
 // A node of a bond.
-struct BondNode {
+struct NodeOfSide {
   Global node;
   int bond;  // index of the pair
   int side;  // 1 the secondary one, 0 the primary one
@@ -189,9 +189,9 @@ class Joining {
   }
 
  private:
-  std::vector<BondNode> nodes_of_bonds() const
+  std::vector<NodeOfSide> nodes_of_bonds() const
   {
-    std::vector<BondNode> result;
+    std::vector<NodeOfSide> result;
     for (std::size_t c = 0; c < pairs_.size(); ++c) {
       if (!is_bond(pairs_[c])) continue;
       for (const Global node : pairs_[c].secondary.node_id) result.push_back({node, static_cast<int>(c), 1});
@@ -206,8 +206,8 @@ class Joining {
     for (const auto& node : contacts_.nodes) nodes.push_back(node.node);
     std::ranges::sort(nodes);
     nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
-    auto bonds = answer(by_node<BondNode>(nodes_of_bonds(), comm_), ask(nodes, comm_), comm_);
-    const auto key = [](const BondNode& n) { return std::tuple(n.node, n.bond, n.side); };
+    auto bonds = answer(by_node<NodeOfSide>(nodes_of_bonds(), comm_), ask(nodes, comm_), comm_);
+    const auto key = [](const NodeOfSide& n) { return std::tuple(n.node, n.bond, n.side); };
     std::ranges::sort(bonds, {}, key);
     bonds.erase(std::ranges::unique(bonds, {}, key).begin(), bonds.end());
     std::vector<Candidate> result;
@@ -215,13 +215,13 @@ class Joining {
       const auto& node = contacts_.nodes[i];
       const auto& options = pairs_[static_cast<std::size_t>(node.contact)].options;
       if (contacts_.bonded[i] || options.cyclic) continue;
-      for (const auto& bond : std::ranges::equal_range(bonds, node.node, {}, &BondNode::node))
+      for (const auto& bond : std::ranges::equal_range(bonds, node.node, {}, &NodeOfSide::node))
         result.push_back(candidate(static_cast<int>(i), bond));
     }
     return result;
   }
 
-  Candidate candidate(int index, const BondNode& bond) const
+  Candidate candidate(int index, const NodeOfSide& bond) const
   {
     const auto& node = contacts_.nodes[static_cast<std::size_t>(index)];
     const auto motion = bond.side == 0 ? motion_of(bond.bond) : mesh::Motion();

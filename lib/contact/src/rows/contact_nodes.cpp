@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "rows/held_by_others.hpp"
+#include "rows/tied_by_others.hpp"
 
 namespace mortise::contact {
 
@@ -160,7 +160,7 @@ std::vector<Directions> directions_of_nodes(const Side& secondary, const Surface
 // Marks the surface nodes of a bond past the primary side's border, prescribed along their normal, whose share the others hold:
 // what such a node sees is the primary side alone, which it would hold to what the few nodes that move leave of the face, as
 // stiffly as that. `met`: as BondedNodes has it; `whole`: the area round each node.
-std::vector<char> held_past_the_border(const Side& secondary, CutFaces& faces, std::span<const char> met,
+std::vector<char> tied_past_the_border(const Side& secondary, CutFaces& faces, std::span<const char> met,
                                        const ContactNodes& nodes, std::span<const double> whole, int dimension)
 {
   std::vector<char> aside(met.size(), 0);
@@ -169,7 +169,7 @@ std::vector<char> held_past_the_border(const Side& secondary, CutFaces& faces, s
     aside[p] = !nodes.directions[p].free_normal && !met[p];
     stay[p] = !aside[p] && nodes.covered[p] > least_cover * whole[p];
   }
-  return held_by_others(secondary, faces, aside, stay, dimension);
+  return tied_by_others(secondary, faces, aside, stay, dimension);
 }
 
 }  // namespace
@@ -200,7 +200,7 @@ ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& sur
   // moves, as those of an obstacle, are dropped.
   // Past the primary side's border those of a bond stay only where the others do not hold what is covered.
   std::vector<char> others_hold;
-  if (bond && !bond->met.empty()) others_hold = held_past_the_border(secondary, faces, bond->met, nodes, whole, dimension);
+  if (bond && !bond->met.empty()) others_hold = tied_past_the_border(secondary, faces, bond->met, nodes, whole, dimension);
   const auto left_to_others = [&](std::size_t p) { return bond && bond->left_to_others[faces.surface_node(p)]; };
   const auto needed = [&](std::size_t place) {
     const auto p = faces.surface_node(place);

@@ -59,13 +59,13 @@ class ContactRows {
     s_.discretization->make_functions(chosen_.kept);
     s_.faces.sort_by_nodes();
     for (std::size_t p = 0; p < s_.faces.places(); ++p)
-      if (own(p) && chosen_.kept[p]) add_place(p, contacts);
+      if (own(p) && chosen_.kept[p]) add_contact_node(p, contacts);
     if (s_.mesh_gaps && !options().obstacle && !one_surface_.anywhere())
       note_turns(s_.secondary, s_.nodes, s_.primary, s_.primary_nodes, s_.rays, initial_gap_);
     // Tresca's bound is an area's, which belongs to the nodes.
     const bool tangents = options().law != Law::frictionless && options().law != Law::tresca;
     between_.add_to(contacts, supports, {s_.index, s_.secondary.kinematics, rotation_of(options()), tangents},
-                    [&](const PlaceBetween& place) { return gap_between(place); });
+                    [&](const ContactPoint& place) { return gap_between(place); });
   }
 
   RowsFound found() const { return {initial_gap_, options().cyclic ? fit() : CutFit(), conflicts_.found()}; }
@@ -143,7 +143,7 @@ class ContactRows {
       conflicts_.note_prescribed_crossing(node, normal, s_.rays.meet(p), chosen_.directions[p]);
   }
 
-  void add_place(std::size_t p, constraint::Contacts& contacts)
+  void add_contact_node(std::size_t p, constraint::Contacts& contacts)
   {
     terms_.clear();
     double d = 0, rise = 0;
@@ -299,7 +299,7 @@ class ContactRows {
     return result;
   }
 
-  RowsBetween::Gap gap_between(const PlaceBetween& place)
+  RowsBetween::Gap gap_between(const ContactPoint& place)
   {
     const Point direction = s_.rays.direction(place.surface_node, place.at, s_.rays.own_normal(place.where));
     const auto [mesh, gap] = gaps_.between_nodes(place, direction);

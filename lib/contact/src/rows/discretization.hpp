@@ -8,7 +8,7 @@
 
 #include "integrals/cut_faces.hpp"
 #include "integrals/face_integrals.hpp"
-#include "rows/places_between.hpp"
+#include "rows/contact_points.hpp"
 #include "search/line_of_sight.hpp"
 #include "search/nearest_points.hpp"
 #include "search/opposite.hpp"

@@ -105,12 +105,12 @@ class OneByOne {
     }
   }
 
-  // What touches nothing, or lies far from what it should, once more with its primary side turned the other way.
+  // What touches nothing, or lies far from what it should, once more with its primary side rotated the other way.
   void check_cuts(std::size_t c, const CutFit& fit) const
   {
     if (pairs_[c].options.law == Law::bonded) return require_one_surface(pairs_[c], sizes_[c], fit, comm_);
-    if (!may_be_turned_wrongly(pairs_[c], sizes_[c], fit)) return;
-    const Pair other = turned_back(pairs_[c]);
+    if (!may_be_rotated_wrongly(pairs_[c], sizes_[c], fit)) return;
+    const Pair other = rotated_the_other_way(pairs_[c]);
     constraint::Contacts tried;
     const auto found = add_rows_of(work_on(other, c), {}, c, tried);
     require_this_way(pairs_[c], sizes_[c], fit, over_ranks(found.fit, comm_));

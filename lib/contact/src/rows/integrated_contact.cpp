@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "rows/contact_nodes.hpp"
-#include "rows/places_between.hpp"
+#include "rows/contact_points.hpp"
 
 namespace mortise::contact {
 
@@ -18,7 +18,7 @@ IntegratedContact integrate(std::unique_ptr<OpposedSides> sides, const Communica
 {
   auto& s = *sides;
   const auto cover = [&](std::size_t face) { return s.discretization->cover(face); };
-  auto between = take_places_between(s.nearest, s.secondary, s.nodes, s.faces, s.share.own, cover, comm);
+  auto between = take_contact_points(s.nearest, s.secondary, s.nodes, s.faces, s.share.own, cover, comm);
   for (const std::size_t f : s.faces.round()) s.discretization->add_face(f, between.in_facets[f] != 0);
   RowsBetween rows(std::move(between.places), s.secondary, s.share.own, comm);
   s.faces.number_corners();

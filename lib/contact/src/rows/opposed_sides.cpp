@@ -26,7 +26,7 @@ OpposedSides::OpposedSides(const Options& its_options, const Share& its_share, d
       rays(secondary, nodes, primary, primary_nodes, tree, sight, options.obstacle, reach),
       mesh_gaps(!bonded() && !options.clearance),
       nearest(mesh_gaps ? find_nearest_points() : std::vector<NearestPoint>()),
-      bonded_nodes(held_together(primary_at_bonds)),
+      bonded_nodes(tied_together(primary_at_bonds)),
       discretization(discretization_kind(options.discretization)
                          .make({secondary, nodes, primary, primary_nodes, tree, sight, faces, rays, options.obstacle.has_value(),
                                 reach, mesh_gaps, !bonded(), nearest, bonded_nodes}))

@@ -15,7 +15,7 @@ bool OppositeSupports::prescribe(const Opposite& opposite, const Point& directio
 {
   if (!std::isfinite(opposite.gap)) return true;
   const auto nodes = primary_.facets[opposite.facet];
-  const Point there = turned_back(direction);
+  const Point there = rotated_back(direction);
   double free = 0, all = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const double part = std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]);
@@ -29,7 +29,7 @@ bool OppositeSupports::prescribe_all(const Opposite& opposite, const Point& dire
 {
   if (!std::isfinite(opposite.gap)) return true;
   const auto nodes = primary_.facets[opposite.facet];
-  const Point there = turned_back(direction);
+  const Point there = rotated_back(direction);
   double free = 0, all = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const double part = std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]);

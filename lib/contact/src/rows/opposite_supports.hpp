@@ -14,7 +14,7 @@ namespace mortise::contact {
 class OppositeSupports {
  public:
   /// All of which must outlive it. `supports` at the nodes of the primary side. `dimension`: 2 or 3. `rotation`: the primary side
-  /// is turned before it meets the secondary one, and so is what supports hold of it.
+  /// is rotated before it meets the secondary one, and so is what supports hold of it.
   OppositeSupports(const Side& secondary, const SurfaceNodes& surface_nodes, const Side& primary, const SupportedNodes& supports,
                    Rays& rays, int dimension, const std::optional<mesh::Motion>& rotation)
       : secondary_(secondary),
@@ -39,7 +39,7 @@ class OppositeSupports {
   std::vector<char> prescribed_along_normals(CutFaces& faces, Test test) const;
 
  private:
-  Point turned_back(const Point& direction) const
+  Point rotated_back(const Point& direction) const
   {
     return rotation_ ? Point(rotation_->rotation.transpose() * direction) : direction;
   }

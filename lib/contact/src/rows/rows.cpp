@@ -141,7 +141,7 @@ Eigen::Matrix3d RowWriter::mobility(std::span<const Term> terms, bool secondary_
   return all > 0 ? Eigen::Matrix3d(result / all) : result;
 }
 
-Few<Point, 3> RowWriter::held_on_secondary(std::span<const Term> terms) const
+Few<Point, 3> RowWriter::prescribed_on_secondary(std::span<const Term> terms) const
 {
   constexpr double nothing = 0.01;  // of squares: a tenth of a coefficient, as nodes beside may have
   Eigen::Matrix3d freedom = mobility(terms, true);

@@ -19,7 +19,7 @@ void merge_terms(std::vector<Term>& terms);
 /// The rows sum_k value_k / d axis . u(node_k) of a contact.
 class RowWriter {
  public:
-  /// All of which must outlive it. `rotation`: the primary side is turned before it meets the secondary one, and so are its
+  /// All of which must outlive it. `rotation`: the primary side is rotated before it meets the secondary one, and so are its
   /// displacements.
   RowWriter(const Side& secondary, const Side& primary, const SupportedNodes& prescribed, const SupportedNodes& primary_supports,
             int dimension, const std::optional<mesh::Motion>& rotation)
@@ -55,7 +55,7 @@ class RowWriter {
   void leave_what_moves(std::span<const Term> terms, const Point& normal, std::vector<Point>& tangents);
   /// An orthonormal basis of the directions in which supports hold the secondary nodes of the terms, those with
   /// small coefficients aside.
-  Few<Point, 3> held_on_secondary(std::span<const Term> terms) const;
+  Few<Point, 3> prescribed_on_secondary(std::span<const Term> terms) const;
   /// What supports contribute to the row.
   double prescribed_part(std::span<const Term> terms, double d, const Point& axis);
   /// Appends the row <= bound, without what supports hold. `couple`: what comes to it along another axis.
@@ -102,7 +102,7 @@ class RowWriter {
   // The part of one side at nodes that supports hold somewhat along an axis; 1 of nothing.
   double part_at_prescribed_nodes(std::span<const Term> terms, bool on_primary, const Point& axis) const;
   void merge();
-  // Of a term's node: the projector onto what supports leave free, turned as the node is.
+  // Of a term's node: the projector onto what supports leave free, rotated as the node is.
   Eigen::Matrix3d free_part(const Term& term) const;
   // The scalar product of the rows along two directions, over the sum of the squares of the terms; of one side or both.
   Eigen::Matrix3d mobility(std::span<const Term> terms, bool secondary_alone = false) const;

@@ -21,7 +21,7 @@ constexpr double least_weight = 1e-9;  // less is none
 constexpr double least_cover_of_node = 0.9, of_weight = 1e-3;
 
 // The nodes of this rank that places of others ask for, ascending. Collective.
-std::vector<Global> asked_for(std::span<const PlaceBetween> places, const std::vector<Global>& own, const Communicator& comm)
+std::vector<Global> asked_for(std::span<const ContactPoint> places, const std::vector<Global>& own, const Communicator& comm)
 {
   struct Asked {
     Global node;
@@ -106,7 +106,7 @@ Eigen::VectorXd weights_between(const Eigen::Matrix2Xd& x, int dimension)
   return {};
 }
 
-RowsBetween::RowsBetween(std::vector<PlaceBetween> places, const Side& secondary, const std::vector<char>& own,
+RowsBetween::RowsBetween(std::vector<ContactPoint> places, const Side& secondary, const std::vector<char>& own,
                          const Communicator& comm)
     : places_(std::move(places)), comm_(comm), any_(comm.any(!places_.empty()))
 {
@@ -142,7 +142,7 @@ std::vector<const RowsBetween::Neighbour*> RowsBetween::at(std::span<const Globa
 
 // What is left between w and the shape functions of the facet sees the surface curve. It counts a little more, so that the row of
 // a place is clearly closed and not pressed where the nodes round it touch; how far bodies approach as a whole stays exact.
-void RowsBetween::curve_more(const PlaceBetween& place, std::span<const Neighbour* const> nodes, Eigen::VectorXd& w)
+void RowsBetween::curve_more(const ContactPoint& place, std::span<const Neighbour* const> nodes, Eigen::VectorXd& w)
 {
   constexpr double more = 0.2;
   Eigen::VectorXd flat = Eigen::VectorXd::Zero(w.size());
@@ -156,7 +156,7 @@ void RowsBetween::curve_more(const PlaceBetween& place, std::span<const Neighbou
 
 // Those round a place, and their weights in its row: of nodes that are covered and have no control values, which alone
 // say what is at their places; if they are too few, of the corners of its facet, as its shape functions are.
-RowsBetween::Weighted RowsBetween::round(const PlaceBetween& place, int dimension) const
+RowsBetween::Weighted RowsBetween::round(const ContactPoint& place, int dimension) const
 {
   Weighted result;
   const auto candidates = at(place.round, place.normal);

@@ -20,7 +20,7 @@
 #include "fem/options.hpp"
 #include "integrals/face_integrals.hpp"
 #include "mesh/instances.hpp"
-#include "rows/places_between.hpp"
+#include "rows/contact_points.hpp"
 #include "rows/supported_nodes.hpp"
 
 namespace mortise::contact {
@@ -40,10 +40,10 @@ class RowsBetween {
     Point direction;
     double mesh, bound;
   };
-  using GapAt = std::function<Gap(const PlaceBetween&)>;
+  using GapAt = std::function<Gap(const ContactPoint&)>;
 
   /// `comm` must outlive it. Collective.
-  RowsBetween(std::vector<PlaceBetween> places, const Side& secondary, const std::vector<char>& own, const Communicator& comm);
+  RowsBetween(std::vector<ContactPoint> places, const Side& secondary, const std::vector<char>& own, const Communicator& comm);
 
   /// Takes up the terms of a contact node of this rank, if a place asks for them, divided by `d`; `means_field`: their row means
   /// the field at the node, see MultiplierPoints.
@@ -73,11 +73,11 @@ class RowsBetween {
   using Weighted = std::vector<std::pair<const Neighbour*, double>>;
 
   std::vector<const Neighbour*> at(std::span<const Global> nodes, const Point& normal) const;
-  static void curve_more(const PlaceBetween& place, std::span<const Neighbour* const> nodes, Eigen::VectorXd& w);
-  Weighted round(const PlaceBetween& place, int dimension) const;
+  static void curve_more(const ContactPoint& place, std::span<const Neighbour* const> nodes, Eigen::VectorXd& w);
+  Weighted round(const ContactPoint& place, int dimension) const;
   std::vector<Term> sum_of(const Weighted& nodes, const Side& secondary, const Side& primary) const;
 
-  std::vector<PlaceBetween> places_;
+  std::vector<ContactPoint> places_;
   const Communicator& comm_;
   bool any_;                      // on any rank
   std::vector<Global> asked_;     // nodes of this rank, ascending

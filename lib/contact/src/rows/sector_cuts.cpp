@@ -50,18 +50,19 @@ void require_one_surface(const Pair& pair, const PairSize& size, const CutFit& f
   const std::string found = fit.meet() ? fmt::format("they have {:.0f} % of the larger one in common and are up to {:.3g} apart",
                                                      100 * part, fit.widest)
                                        : "they have nothing in common";
-  throw Error(ExitStatus::bad_input,
-              fmt::format("contact \"{}\": turned by {:.6g} degrees, the primary boundary does not lie on the secondary one: {}; "
-                          "try angle: {:.6g}, which turns the other way, or mend axis, center or the names of the cuts",
-                          pair.options.name, angle, found, -angle));
+  throw Error(
+      ExitStatus::bad_input,
+      fmt::format("contact \"{}\": rotated by {:.6g} degrees, the primary boundary does not lie on the secondary one: {}; "
+                  "try angle: {:.6g}, which turns the other way, or mend axis, center or the names of the cuts",
+                  pair.options.name, angle, found, -angle));
 }
 
-bool may_be_turned_wrongly(const Pair& pair, const PairSize& size, const CutFit& fit)
+bool may_be_rotated_wrongly(const Pair& pair, const PairSize& size, const CutFit& fit)
 {
   return pair.options.cyclic && (!fit.meet() || fit.mean() > allowed(size));
 }
 
-Pair turned_back(const Pair& pair)
+Pair rotated_the_other_way(const Pair& pair)
 {
   Pair result = pair;
   const auto motion = rotation_of(pair.options);
@@ -81,7 +82,7 @@ void require_this_way(const Pair& pair, const PairSize& size, const CutFit& fit,
   throw Error(
       ExitStatus::bad_input,
       fmt::format(
-          "contact \"{}\": turned by {:.6g} degrees, the primary boundary {}; turned by {:.6g} degrees it lies {}: expected "
+          "contact \"{}\": rotated by {:.6g} degrees, the primary boundary {}; rotated by {:.6g} degrees it lies {}: expected "
           "angle: {:.6g}, or the names of the cuts exchanged",
           pair.options.name, angle,
           fit.meet() ? fmt::format("lies {:.3g} from the secondary one on the average", fit.mean())

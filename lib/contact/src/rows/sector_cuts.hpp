@@ -5,8 +5,8 @@
 
 namespace mortise::contact {
 
-/// How the cuts of a sector lie on each other once turned, of all ranks: the area in common, and the widest and the mean distance
-/// at the nodes that carry multipliers (none: points is 0).
+/// How the cuts of a sector lie on each other once rotated, of all ranks: the area in common, and the widest and the mean
+/// distance at the nodes that carry multipliers (none: points is 0).
 struct CutFit {
   double covered = 0, widest = 0, distances = 0, points = 0;
 
@@ -19,19 +19,19 @@ struct CutFit {
 /// Of the parts on all ranks. Collective.
 CutFit over_ranks(const CutFit& part, const Communicator& comm);
 
-/// Bonded cuts are one surface once turned; sides that do not lie on each other would be tied all the same, and are an error.
+/// Bonded cuts are one surface once rotated; sides that do not lie on each other would be tied all the same, and are an error.
 /// Throws Error(bad_input). Collective.
 void require_one_surface(const Pair& pair, const PairSize& size, const CutFit& fit, const Communicator& comm);
 
-/// Whether cuts that touch lie so far apart that they may be turned the wrong way. What they have between them never says so by
+/// Whether cuts that touch lie so far apart that they may be rotated the wrong way. What they have between them never says so by
 /// itself: a gap may be meant, and where they do not meet at all, a warning tells.
-bool may_be_turned_wrongly(const Pair& pair, const PairSize& size, const CutFit& fit);
+bool may_be_rotated_wrongly(const Pair& pair, const PairSize& size, const CutFit& fit);
 
-/// The pair with its primary side turned the other way.
-Pair turned_back(const Pair& pair);
+/// The pair with its primary side rotated the other way.
+Pair rotated_the_other_way(const Pair& pair);
 
-/// Throws Error(bad_input) if cuts lie on each other turned the other way alone, or much nearer: real gaps are less than a sector
-/// is wide, and the wrong way adds twice its width.
+/// Throws Error(bad_input) if cuts lie on each other rotated the other way alone, or much nearer: real gaps are less than a
+/// sector is wide, and the wrong way adds twice its width.
 void require_this_way(const Pair& pair, const PairSize& size, const CutFit& fit, const CutFit& other_way);
 
 }  // namespace mortise::contact

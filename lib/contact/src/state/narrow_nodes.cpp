@@ -80,7 +80,7 @@ NarrowNodes::NarrowNodes(const std::vector<NodeState>& nodes, std::span<const Pa
 }
 
 // The same on the ranks of the other nodes. Collective.
-std::vector<NarrowNodes::Given> NarrowNodes::turned_round(std::vector<Given> given) const
+std::vector<NarrowNodes::Given> NarrowNodes::sent_across(std::vector<Given> given) const
 {
   for (auto& g : given) {
     std::swap(g.node, g.other);
@@ -103,8 +103,8 @@ void NarrowNodes::give(std::vector<NodeState>& nodes)
       g.closed = from.closed;
       for (std::size_t c = 0; c < 3; ++c) g.traction[c] = g.part * from.traction[c];
     }
-    taken_[band] = turned_round(given_[band]);
-    for (const auto& g : taken_[band]) {
+    received_[band] = sent_across(given_[band]);
+    for (const auto& g : received_[band]) {
       auto& to = state_of(nodes, g);
       to.area += g.area;
       to.force += g.force;
@@ -120,8 +120,8 @@ void NarrowNodes::take(std::vector<NodeState>& nodes, const Take& value, const C
 {
   for (std::size_t band = 1; band <= bands; ++band) {
     if (!any_[band]) continue;
-    for (auto& g : taken_[band]) value(g, state_of(nodes, g));
-    const auto mean = turned_round(taken_[band]);
+    for (auto& g : received_[band]) value(g, state_of(nodes, g));
+    const auto mean = sent_across(received_[band]);
     for (const auto& g : mean) clear(state_of(nodes, g));
     for (const auto& g : mean) add(g, state_of(nodes, g));
   }

@@ -48,14 +48,14 @@ class NarrowNodes {
   static NodeState& state_of(std::vector<NodeState>& nodes, const Given& given);
   static std::size_t band_of(double cover);
   std::vector<Given> neighbours(const std::vector<NodeState>& nodes, std::span<const Pair> pairs) const;
-  std::vector<Given> turned_round(std::vector<Given> given) const;
+  std::vector<Given> sent_across(std::vector<Given> given) const;
   template <class Take, class Clear, class Add>
   void take(std::vector<NodeState>& nodes, const Take& value, const Clear& clear, const Add& add);
 
   const Communicator& comm_;
-  std::array<std::vector<Given>, bands + 1> given_;  // of the narrow nodes of each band, on their ranks
-  std::array<std::vector<Given>, bands + 1> taken_;  // the same on those of their neighbours
-  std::array<bool, bands + 1> any_{};                // on any rank
+  std::array<std::vector<Given>, bands + 1> given_;     // of the narrow nodes of each band, on their ranks
+  std::array<std::vector<Given>, bands + 1> received_;  // the same on those of their neighbours
+  std::array<bool, bands + 1> any_{};                   // on any rank
 };
 
 }  // namespace mortise::contact

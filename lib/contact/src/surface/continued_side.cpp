@@ -45,7 +45,7 @@ class SymmetryPlanes {
   std::vector<SymmetryPlane>& all() { return planes_; }
 
   // Normals lie in a plane where the side goes on in its image; at a kink there they are those of the side alone.
-  void settle(const SymmetryPlane& plane, const mesh::Cells& facets, SurfaceNodes& of_whole) const
+  void project_normals(const SymmetryPlane& plane, const mesh::Cells& facets, SurfaceNodes& of_whole) const
   {
     std::vector<char> goes_on(of_whole.all.size(), 0);
     for (const std::size_t f : plane.images)
@@ -93,8 +93,8 @@ class SymmetryPlanes {
 
   const Point& at(Local n) const { return side_.points[static_cast<std::size_t>(n)]; }
 
-  // Directions that supports hold a node in.
-  std::vector<Point> held(Local n) const
+  // Directions in which supports prescribe a node.
+  std::vector<Point> prescribed_directions(Local n) const
   {
     const Global node = side_.node_id[static_cast<std::size_t>(n)];
     std::vector<Point> result;
@@ -104,15 +104,15 @@ class SymmetryPlanes {
     return result;
   }
 
-  // Also by supports that hold a node in several directions, of which it is none.
-  bool is_held(Local n, const Point& direction) const
+  // Also by supports that prescribe it in several directions, of which it is none.
+  bool is_prescribed(Local n, const Point& direction) const
   {
     Few<Point, 3> basis;
     const auto part_left = [&](Point m) {
       for (const Point& b : basis) m -= m.dot(b) * b;
       return m;
     };
-    for (const Point& m : held(n))
+    for (const Point& m : prescribed_directions(n))
       if (const Point left = part_left(m); basis.size() < 3 && left.norm() > rounding) basis.push_back(left.normalized());
     return part_left(direction).norm() < rounding;
   }
@@ -139,8 +139,8 @@ class SymmetryPlanes {
   {
     const double length = (at(a) - at(b)).norm();
     for (const Local one : {a, b})
-      for (const Point& m : held(one)) {
-        if (std::abs(m.dot(at(b) - at(a))) > rounding * length || !is_held(one == a ? b : a, m)) continue;
+      for (const Point& m : prescribed_directions(one)) {
+        if (std::abs(m.dot(at(b) - at(a))) > rounding * length || !is_prescribed(one == a ? b : a, m)) continue;
         auto& plane = plane_of(m, a);
         for (const Local n : {a, b}) plane.said[static_cast<std::size_t>(n)] = ask(n, m);
         plane.border.push_back({a, b});
@@ -288,7 +288,7 @@ SurfaceNodes find_surface_nodes(const Side& side, const SupportedNodes& supports
     return std::move(alone[0]);
   }
   auto of_whole = surface_nodes_of_facets(whole);
-  for (const auto& plane : planes.all()) planes.settle(plane, whole.facets, of_whole);
+  for (const auto& plane : planes.all()) planes.project_normals(plane, whole.facets, of_whole);
   return of_first(side, whole.facets, of_whole);
 }
 

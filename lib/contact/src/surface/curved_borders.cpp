@@ -45,24 +45,24 @@ CurvedBorders::CurvedBorders(const Side& side) : all_(side)
 bool CurvedBorders::meets_image_at_kink(const Edge& edge, const Point& normal) const
 {
   const auto& face = all_.faces()[edge.face];
-  const auto place = all_.place_between(edge.a, edge.b, face.normal - face.normal.dot(normal) * normal, normal);
-  const auto curved = all_.slope_of_curved(edge.face, edge.a, edge.b, place);
-  const bool beyond = (face.centre - place.middle).dot(normal) > 0;
-  const double corners = FaceEdges::slope(face, place, beyond ? normal : Point(-normal));
-  const auto around = all_.around(edge.face, edge.a, edge.b, place);
+  const auto frame = all_.frame_between(edge.a, edge.b, face.normal - face.normal.dot(normal) * normal, normal);
+  const auto curved = all_.slope_of_curved(edge.face, edge.a, edge.b, frame);
+  const bool beyond = (face.centre - frame.middle).dot(normal) > 0;
+  const double corners = FaceEdges::slope(face, frame, beyond ? normal : Point(-normal));
+  const auto around = all_.around(edge.face, edge.a, edge.b, frame);
   return curved && is_kink_of_curved(2 * *curved, 2 * corners, around, around);
 }
 
 bool CurvedBorders::meets_at_kink(const Edge& edge, const CurvedBorders& other, const Edge& beyond) const
 {
   const auto &here = all_.faces()[edge.face], &there = other.all_.faces()[beyond.face];
-  const auto place = all_.place_between(edge.a, edge.b, here.normal + there.normal, there.centre - here.centre);
-  const auto curved = all_.slope_of_curved(edge.face, edge.a, edge.b, place);
-  const auto curved_beyond = other.all_.slope_of_curved(beyond.face, beyond.a, beyond.b, place);
-  const double corners = FaceEdges::slope(there, place, place.away) - FaceEdges::slope(here, place, place.away);
+  const auto frame = all_.frame_between(edge.a, edge.b, here.normal + there.normal, there.centre - here.centre);
+  const auto curved = all_.slope_of_curved(edge.face, edge.a, edge.b, frame);
+  const auto curved_beyond = other.all_.slope_of_curved(beyond.face, beyond.a, beyond.b, frame);
+  const double corners = FaceEdges::slope(there, frame, frame.away) - FaceEdges::slope(here, frame, frame.away);
   return curved && curved_beyond &&
-         is_kink_of_curved(*curved + *curved_beyond, corners, all_.around(edge.face, edge.a, edge.b, place),
-                           other.all_.around(beyond.face, beyond.a, beyond.b, place));
+         is_kink_of_curved(*curved + *curved_beyond, corners, all_.around(edge.face, edge.a, edge.b, frame),
+                           other.all_.around(beyond.face, beyond.a, beyond.b, frame));
 }
 
 }  // namespace mortise::contact

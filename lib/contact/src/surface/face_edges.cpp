@@ -55,27 +55,27 @@ void FaceEdges::find_edges()
   }
 }
 
-FaceEdges::Place FaceEdges::place_of(const Edge& edge) const
+FaceEdges::Frame FaceEdges::frame_of(const Edge& edge) const
 {
   const Face &first = faces_[edge.faces[0]], &last = faces_[edge.faces[1]];
-  return place_between(edge.a, edge.b, first.normal + last.normal, last.centre - first.centre);
+  return frame_between(edge.a, edge.b, first.normal + last.normal, last.centre - first.centre);
 }
 
-FaceEdges::Place FaceEdges::place_between(Local a, Local b, const Point& normal, const Point& away) const
+FaceEdges::Frame FaceEdges::frame_between(Local a, Local b, const Point& normal, const Point& away) const
 {
-  Place place{(at(a) + at(b)) / 2, normal.normalized(), Point::Zero(), Point::Zero(), 0};
+  Frame frame{(at(a) + at(b)) / 2, normal.normalized(), Point::Zero(), Point::Zero(), 0};
   if (a != b) {
-    place.along = (at(b) - at(a)).normalized();
-    place.half = (at(b) - at(a)).norm() / 2;
+    frame.along = (at(b) - at(a)).normalized();
+    frame.half = (at(b) - at(a)).norm() / 2;
   }
-  place.away = (away - away.dot(place.normal) * place.normal - away.dot(place.along) * place.along).normalized();
-  return place;
+  frame.away = (away - away.dot(frame.normal) * frame.normal - away.dot(frame.along) * frame.along).normalized();
+  return frame;
 }
 
-double FaceEdges::depth(std::size_t face, const Place& place, const Point& away) const
+double FaceEdges::depth(std::size_t face, const Frame& frame, const Point& away) const
 {
   double result = 0;
-  for (const Local n : faces_[face].nodes) result = std::max(result, (at(n) - place.middle).dot(away));
+  for (const Local n : faces_[face].nodes) result = std::max(result, (at(n) - frame.middle).dot(away));
   return result;
 }
 
@@ -93,7 +93,7 @@ std::optional<Point> FaceEdges::leaves(std::size_t face, Local from, Local to) c
   return std::nullopt;
 }
 
-std::optional<double> FaceEdges::slope_of_curved(std::size_t face, Local a, Local b, const Place& place) const
+std::optional<double> FaceEdges::slope_of_curved(std::size_t face, Local a, Local b, const Frame& frame) const
 {
   const auto& nodes = faces_[face].nodes;
   const std::size_t n = nodes.size();
@@ -103,31 +103,31 @@ std::optional<double> FaceEdges::slope_of_curved(std::size_t face, Local a, Loca
     const Local after = nodes[(k + 1) % n], across = after == other ? nodes[(k + n - 1) % n] : after;
     const auto line = leaves(face, from, across);
     if (!line) return std::nullopt;
-    double rise = line->dot(place.normal);
+    double rise = line->dot(frame.normal);
     if (from != other) {
       const auto along = leaves(face, from, other);
       if (!along) return std::nullopt;
-      rise -= line->dot(place.along) * along->dot(place.normal) / along->dot(place.along);
+      rise -= line->dot(frame.along) * along->dot(frame.normal) / along->dot(frame.along);
     }
-    sum += rise / std::abs(line->dot(place.away));
+    sum += rise / std::abs(line->dot(frame.away));
   }
   return sum / 2;
 }
 
 std::optional<double> FaceEdges::turn_at(const Edge& edge) const
 {
-  const Place place = place_of(edge);
-  const auto first = slope_of_curved(edge.faces[0], edge.a, edge.b, place);
-  const auto last = slope_of_curved(edge.faces[1], edge.a, edge.b, place);
+  const Frame frame = frame_of(edge);
+  const auto first = slope_of_curved(edge.faces[0], edge.a, edge.b, frame);
+  const auto last = slope_of_curved(edge.faces[1], edge.a, edge.b, frame);
   return first && last ? std::optional(*first + *last) : std::nullopt;
 }
 
-FaceEdges::Around FaceEdges::around(std::size_t face, Local a, Local b, const Place& place, const std::vector<bool>& parted) const
+FaceEdges::Around FaceEdges::around(std::size_t face, Local a, Local b, const Frame& frame, const std::vector<bool>& parted) const
 {
   constexpr double far = 0.75, behind = 1.4;  // edges across the way are, over how far the face reaches
   Around result;
-  const Point away = (faces_[face].centre - place.middle).dot(place.away) > 0 ? place.away : Point(-place.away);
-  const double reach = depth(face, place, away);
+  const Point away = (faces_[face].centre - frame.middle).dot(frame.away) > 0 ? frame.away : Point(-frame.away);
+  const double reach = depth(face, frame, away);
   const auto is_at_edge = [&](const Edge& edge) { return edge.a == a && edge.b == b; };
   const auto touches_edge = [&](const Edge& edge) { return edge.has(a) || edge.has(b); };
   const std::size_t rings_of_a_row = faces_[face].nodes.size() == 3 ? 2 : 1;  // two triangles reach as far as a quadrangle
@@ -139,7 +139,7 @@ FaceEdges::Around FaceEdges::around(std::size_t face, Local a, Local b, const Pl
       for (const auto& [other, e] : faces_[seen[first]].beside) {
         if (is_at_edge(edges_[e]) || (ring > 0 && touches_edge(edges_[e])) || (!parted.empty() && parted[e])) continue;
         if (std::find(seen.begin(), seen.end(), other) == seen.end()) seen.push_back(other);
-        const double depth_of_edge = ((at(edges_[e].a) + at(edges_[e].b)) / 2 - place.middle).dot(away);
+        const double depth_of_edge = ((at(edges_[e].a) + at(edges_[e].b)) / 2 - frame.middle).dot(away);
         if (next && depth_of_edge > far * reach) result.any_next = true;
         if (!next && depth_of_edge > behind * reach) result.any_beyond = true;
         result.curved = result.curved && turns_[e].has_value();

@@ -32,7 +32,7 @@ class FaceEdges {
 
   /// What an edge looks like: its middle, half of its length, the mean normal there and the directions along it and across, from
   /// the first face to the other.
-  struct Place {
+  struct Frame {
     Point middle, normal, along, away;
     double half;
   };
@@ -43,18 +43,18 @@ class FaceEdges {
   const std::vector<Edge>& edges() const { return edges_; }
   const Point& at(Local n) const { return side_.points[static_cast<std::size_t>(n)]; }
 
-  Place place_of(const Edge& edge) const;
+  Frame frame_of(const Edge& edge) const;
   /// Of the edge from a to b, or the node a = b. `normal` and `away` may be of any length and lean to each other.
-  Place place_between(Local a, Local b, const Point& normal, const Point& away) const;
+  Frame frame_between(Local a, Local b, const Point& normal, const Point& away) const;
   /// How far a face reaches from an edge.
-  double depth(std::size_t face, const Place& place, const Point& away) const;
+  double depth(std::size_t face, const Frame& frame, const Point& away) const;
   /// The slope of a face by its corners, in a direction.
-  static double slope(const Face& face, const Place& place, const Point& away)
+  static double slope(const Face& face, const Frame& frame, const Point& away)
   {
-    return -face.normal.dot(away) / face.normal.dot(place.normal);
+    return -face.normal.dot(away) / face.normal.dot(frame.normal);
   }
   /// The slope at which a curved face leaves its edge from a to b, or its end a = b, across; none where it is of first order.
-  std::optional<double> slope_of_curved(std::size_t face, Local a, Local b, const Place& place) const;
+  std::optional<double> slope_of_curved(std::size_t face, Local a, Local b, const Frame& frame) const;
   /// By how much the slopes across an edge of the curved faces there differ; none where one of the faces is of first order.
   const std::optional<double>& turn_of_curved(std::size_t edge) const { return turns_[edge]; }
 
@@ -68,7 +68,7 @@ class FaceEdges {
     bool curved = true;  ///< all faces there are
   };
   /// Edges of `parted`, empty or one for each edge, are as a border.
-  Around around(std::size_t face, Local a, Local b, const Place& place, const std::vector<bool>& parted = {}) const;
+  Around around(std::size_t face, Local a, Local b, const Frame& frame, const std::vector<bool>& parted = {}) const;
   /// Whether two faces share a node.
   bool touch(std::size_t face, std::size_t other) const;
   /// The edges of facets that make up an edge of a face: a node in the middle of one of second order cuts it in two.

@@ -126,7 +126,7 @@ std::vector<FacesAtBonds::AtBond> FacesAtBonds::nodes_of(const Side& side, const
   return result;
 }
 
-std::vector<std::vector<Local>> held_together(std::span<const FacesAtBonds::AtBond> nodes)
+std::vector<std::vector<Local>> tied_together(std::span<const FacesAtBonds::AtBond> nodes)
 {
   std::map<int, std::vector<Local>> of_bond;
   for (const auto& at : nodes) of_bond[at.bond].insert(of_bond[at.bond].end(), at.nodes.begin(), at.nodes.end());

@@ -77,6 +77,6 @@ class FacesAtBonds {
 };
 
 /// Of each bond the nodes of a side that it holds together, be they on one side of it or on both.
-std::vector<std::vector<Local>> held_together(std::span<const FacesAtBonds::AtBond> nodes);
+std::vector<std::vector<Local>> tied_together(std::span<const FacesAtBonds::AtBond> nodes);
 
 }  // namespace mortise::contact

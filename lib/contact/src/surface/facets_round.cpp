@@ -38,9 +38,9 @@ Point FacetsRound::shift_to(const Corner& from, const Eigen::Vector4d& shape) co
   return count == 2 ? along_first : Point(along_first + (part(before) + opposite) * (nodes[before] - nodes[from.corner]));
 }
 
-std::optional<FacetsRound::Place> FacetsRound::holds(std::size_t p, const Point& shift) const
+std::optional<FacetsRound::PointInFacet> FacetsRound::holds(std::size_t p, const Point& shift) const
 {
-  std::optional<Place> best;
+  std::optional<PointInFacet> best;
   double least = -between_planes;
   for (const auto& [facet, corner] : round(p)) {
     const auto shape = shape_beside(side_, facet, corner, shift);
@@ -51,7 +51,7 @@ std::optional<FacetsRound::Place> FacetsRound::holds(std::size_t p, const Point&
   return best;
 }
 
-bool FacetsRound::beside_shared_edge(std::size_t p, const Place& place) const
+bool FacetsRound::beside_shared_edge(std::size_t p, const PointInFacet& place) const
 {
   const auto nodes = side_.facets[place.facet];
   const std::size_t count = nodes.size(), after = (place.corner + 1) % count, before = (place.corner + count - 1) % count;
@@ -71,7 +71,7 @@ bool FacetsRound::shared(std::size_t p, std::size_t facet, Local node) const
   });
 }
 
-bool FacetsRound::is_nearest(const Place& place) const
+bool FacetsRound::is_nearest(const PointInFacet& place) const
 {
   constexpr double same = 1e-3;
   const auto number = [&](std::size_t k) { return side_.node_id[static_cast<std::size_t>(side_.facets[place.facet][k])]; };
@@ -84,7 +84,7 @@ bool FacetsRound::is_nearest(const Place& place) const
   return true;
 }
 
-double FacetsRound::part_within(const Place& place) const
+double FacetsRound::part_within(const PointInFacet& place) const
 {
   const double own = place.shape[static_cast<Eigen::Index>(place.corner)];
   double part = 1;

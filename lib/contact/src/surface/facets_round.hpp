@@ -16,7 +16,7 @@ class FacetsRound {
     std::size_t facet, corner;
   };
   /// A place in a facet, near one of its corners or beyond the border.
-  struct Place {
+  struct PointInFacet {
     std::size_t facet, corner;
     Eigen::Vector4d shape;
   };
@@ -35,18 +35,18 @@ class FacetsRound {
   Point shift_to(const Corner& from, const Eigen::Vector4d& shape) const;
   /// The facet round a node that a step from it leads into. A step along the edge between two of them may miss both, which lie in
   /// other planes: it is in the one that it misses less.
-  std::optional<Place> holds(std::size_t p, const Point& shift) const;
+  std::optional<PointInFacet> holds(std::size_t p, const Point& shift) const;
   /// Whether a facet shares its edge from a surface node to another node with a facet round that surface node.
   bool shared(std::size_t p, std::size_t facet, Local node) const;
   /// Whether no other node of the facet is nearer; of two at the same distance the one with the smaller number.
-  bool is_nearest(const Place& place) const;
+  bool is_nearest(const PointInFacet& place) const;
   /// Of the step to a place: of two nodes at the same distance none may be nearer by rounding, its function would push with a
   /// sign of its own.
-  double part_within(const Place& place) const;
+  double part_within(const PointInFacet& place) const;
 
  private:
   // Whether a place outside of a facet round a node lies across edges at the node alone, which other facets have as well.
-  bool beside_shared_edge(std::size_t p, const Place& place) const;
+  bool beside_shared_edge(std::size_t p, const PointInFacet& place) const;
 
   const Side& side_;
   const SurfaceNodes& nodes_;

@@ -21,7 +21,7 @@ constexpr double held_slope = 0.01, held_curvature = 1e-6;
 // The same of what changes curvatures, as a part of what it does to the heights: few nodes tell it from a slope.
 constexpr double held_change = 0.1;
 constexpr int steps = 8, steps_of_third = 20;
-constexpr double settled = 1e-13, settled_third = 1e-10;
+constexpr double converged = 1e-13, converged_third = 1e-10;
 // What a surface of second order may leave of the heights: more is an edge, or scatter. And one of third order.
 constexpr double most_left = 0.2, most_left_of_third = 0.05;
 // What a cone leaves of what a surface of second order leaves.
@@ -153,7 +153,7 @@ std::pair<Point, double> fit_third_order(const std::vector<Point>& d, const Fitt
     surface.curvature = larger * larger > square ? larger - square / larger : 0;
     const Eigen::Vector2d slope(c[0] * length, c[1] * length);
     surface.normal = (surface.normal - slope[0] * s - slope[1] * t).normalized();
-    if (slope.norm() < settled_third) break;
+    if (slope.norm() < converged_third) break;
   }
   const bool determined = dense::symmetric_eigenpairs(gram).values[0] > (cone ? determines_cone : determines_third);
   const bool near = (surface.normal - second.normal).norm() < most_turn * steepest(d, second.normal);
@@ -216,7 +216,7 @@ FittedSurface fit_second_order(const std::vector<Point>& d, const Point& start, 
     result.across = c[2], result.twist = c[3], result.along = c[4], result.curvature = curvature[0];
     normal = (normal - slope[0] * s - slope[1] * t).normalized();
     if (slope.norm() > 2 * height) return none;
-    if (slope.norm() < settled) break;
+    if (slope.norm() < converged) break;
   }
   return (normal - start).norm() > height ? none : result;
 }

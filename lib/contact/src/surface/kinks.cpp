@@ -51,17 +51,17 @@ class Kinks {
   {
     constexpr double over_next = 2.1, maybe_over_next = 1.5;  // on waves of faces of one size: up to 2
     const Edge& edge = edges_[turned.edge];
-    const Place place = all_.place_of(edge);
+    const Frame frame = all_.frame_of(edge);
     bool known = false, cut = false;
     double next = 0;
     for (const std::size_t which : {0U, 1U}) {
-      const Point away = which == 0 ? Point(-place.away) : place.away;
-      const Surface side = rows_beside(edge, static_cast<int>(which), place, away, shared, nullptr);
+      const Point away = which == 0 ? Point(-frame.away) : frame.away;
+      const Surface side = rows_beside(edge, static_cast<int>(which), frame, away, shared, nullptr);
       const bool any = side.faces[0] > 0;
       known = known || any;
       cut = cut || (!any && side.cut);
       if (any) next = std::max(next, side.faces[1] > 0 ? side.most_next() : std::abs(side.next[0]));
-      turned.wings[which] = wing(edge, which, place, side);
+      turned.wings[which] = wing(edge, which, frame, side);
     }
     if (parted_[turned.edge]) return StandsOut::yes;
     if (known ? std::abs(turned.turn) <= maybe_over_next * next : !cut) return StandsOut::no;
@@ -71,7 +71,7 @@ class Kinks {
  private:
   using Edge = FaceEdges::Edge;
   using Face = FaceEdges::Face;
-  using Place = FaceEdges::Place;
+  using Frame = FaceEdges::Frame;
 
   // The part of it that the surfaces on both sides alone differ by: these are nearly plane. Coarse waves and bumps turn by as
   // much as kinks between curved parts do, but from face to face.
@@ -125,25 +125,25 @@ class Kinks {
     return !sharpest.empty();
   }
 
-  TurnedEdge::Wing wing(const Edge& edge, std::size_t which, const Place& place, const Surface& side) const
+  TurnedEdge::Wing wing(const Edge& edge, std::size_t which, const Frame& frame, const Surface& side) const
   {
     const Face& face = faces_[edge.faces[which]];
     Point sum = Point::Zero();
     int count = 0;
     for (const Local n : face.nodes)
       if (!edge.has(n)) sum += all_.at(n), ++count;
-    return {side.away, sum / count, side.depth, FaceEdges::slope(face, place, side.away), side.faces[0] > 0 ? side.next[0] : 0};
+    return {side.away, sum / count, side.depth, FaceEdges::slope(face, frame, side.away), side.faces[0] > 0 ? side.next[0] : 0};
   }
 
   std::optional<TurnedEdge> turned(const Edge& edge) const
   {
     const Face &first = faces_[edge.faces[0]], &last = faces_[edge.faces[1]];
     if ((first.normal - last.normal).squaredNorm() < least_kink * least_kink) return std::nullopt;
-    const Place place = all_.place_of(edge);
-    const double turn = FaceEdges::slope(last, place, place.away) - FaceEdges::slope(first, place, place.away);
+    const Frame frame = all_.frame_of(edge);
+    const double turn = FaceEdges::slope(last, frame, frame.away) - FaceEdges::slope(first, frame, frame.away);
     if (const auto& curved = curved_of(edge); curved && *curved / turn < of_curved) return std::nullopt;
-    const double depth = std::min(all_.depth(edge.faces[0], place, -place.away), all_.depth(edge.faces[1], place, place.away));
-    return TurnedEdge{index_of(edge), place.middle, place.along, place.normal, place.half, depth, turn};
+    const double depth = std::min(all_.depth(edge.faces[0], frame, -frame.away), all_.depth(edge.faces[1], frame, frame.away));
+    return TurnedEdge{index_of(edge), frame.middle, frame.along, frame.normal, frame.half, depth, turn};
   }
 
   // The angle of a kink, as a difference of slopes; 0: there is none. `crossed`: gets the edges between the faces that tell.
@@ -151,12 +151,12 @@ class Kinks {
   {
     const Face &first = faces_[edge.faces[0]], &last = faces_[edge.faces[1]];
     if ((first.normal - last.normal).squaredNorm() < least_kink * least_kink) return 0;
-    const Place place = all_.place_of(edge);
-    const Point& away = place.away;
-    const double corners = FaceEdges::slope(last, place, away) - FaceEdges::slope(first, place, away), faces = std::abs(corners);
-    if (const double turn = turn_of_curved_alone(edge, place, corners); turn > 0) return turn;
-    Surface back = rows_beside(edge, 0, place, -away, parted_, crossed),
-            forth = rows_beside(edge, 1, place, away, parted_, crossed);
+    const Frame frame = all_.frame_of(edge);
+    const Point& away = frame.away;
+    const double corners = FaceEdges::slope(last, frame, away) - FaceEdges::slope(first, frame, away), faces = std::abs(corners);
+    if (const double turn = turn_of_curved_alone(edge, frame, corners); turn > 0) return turn;
+    Surface back = rows_beside(edge, 0, frame, -away, parted_, crossed),
+            forth = rows_beside(edge, 1, frame, away, parted_, crossed);
     if (!back.known && !forth.known) return 0;
     const bool both = back.known && forth.known;
     Surface &known = back.known ? back : forth, &other = back.known ? forth : back;
@@ -169,14 +169,14 @@ class Kinks {
         both && back.faces[1] > 0 && forth.faces[1] > 0 && faces > over_rows * std::max(back.most_next(), forth.most_next());
     if (!peak && !(faces - beside > of_a_kink * faces)) return 0;
     // At the edge itself, and from the middle of one face to that of the other.
-    fit(edge, place, known);
+    fit(edge, frame, known);
     double turn = 0, smooth = 0;
     if (both) {
-      fit(edge, place, other);
+      fit(edge, frame, other);
       turn = back.slope + forth.slope;
       smooth = (std::abs(back.across) * back.depth + std::abs(forth.across) * forth.depth) / 2;
     } else {
-      turn = turn_beyond(known, edge, faces_[edge.faces[back.known ? 1 : 0]], place);
+      turn = turn_beyond(known, edge, faces_[edge.faces[back.known ? 1 : 0]], frame);
       smooth = std::abs(known.across) * (known.depth + other.depth) / 2;
     }
     if (const auto curved = curved_of(edge); curved && *curved / turn < of_curved) return 0;
@@ -201,12 +201,12 @@ class Kinks {
   }
 
   // The angle of a kink between curved faces that need no others to tell; 0: there is none, or others have to.
-  double turn_of_curved_alone(const Edge& edge, const Place& place, double corners) const
+  double turn_of_curved_alone(const Edge& edge, const Frame& frame, double corners) const
   {
     const auto& own = curved_of(edge);
     if (!own) return 0;
     const auto is_kink_among = [&](const std::vector<bool>& parted) {
-      const auto around = [&](std::size_t side) { return all_.around(edge.faces[side], edge.a, edge.b, place, parted); };
+      const auto around = [&](std::size_t side) { return all_.around(edge.faces[side], edge.a, edge.b, frame, parted); };
       return is_kink_of_curved(*own, corners, around(0), around(1));
     };
     if (is_kink_among(parted_)) return std::abs(*own);
@@ -215,26 +215,26 @@ class Kinks {
   }
 
   // The faces on one side of an edge, up to others that are `ends`, and how much they turn from row to row.
-  Surface rows_beside(const Edge& edge, int which, const Place& place, const Point& away, const std::vector<bool>& ends,
+  Surface rows_beside(const Edge& edge, int which, const Frame& frame, const Point& away, const std::vector<bool>& ends,
                       std::vector<std::size_t>* crossed) const
   {
     const std::size_t own = edge.faces[static_cast<std::size_t>(which)];
     Surface result;
     result.away = away;
-    result.depth = all_.depth(own, place, away);
+    result.depth = all_.depth(own, frame, away);
     auto& round = result.round;
     round.reserve(usual_round);
     round.push_back(own);
     double farthest = 0;
     for (std::size_t i = 0; i < round.size(); ++i) {
       const Face& face = faces_[round[i]];
-      farthest = std::max(farthest, all_.depth(round[i], place, away));
+      farthest = std::max(farthest, all_.depth(round[i], frame, away));
       for (const auto& [f, e] : face.beside) {
         const Face& next = faces_[f];
         const auto touches = [&](Local n) {
           return std::find(faces_[own].nodes.begin(), faces_[own].nodes.end(), n) != faces_[own].nodes.end();
         };
-        if ((next.centre - place.middle).dot(away) <= 0) continue;
+        if ((next.centre - frame.middle).dot(away) <= 0) continue;
         result.cut = result.cut || ends[e];
         if (ends[e]) continue;
         if (std::none_of(next.nodes.begin(), next.nodes.end(), touches)) continue;
@@ -244,9 +244,9 @@ class Kinks {
     }
     result.known = farthest > two_rows * result.depth;
     if (farthest <= any_row * result.depth) return result;
-    const double slope = FaceEdges::slope(faces_[own], place, away);
+    const double slope = FaceEdges::slope(faces_[own], frame, away);
     const auto note = [&](std::size_t row, const Face& face) {
-      result.next[row] += FaceEdges::slope(face, place, away) - slope;
+      result.next[row] += FaceEdges::slope(face, frame, away) - slope;
       ++result.faces[row];
     };
     for (const std::size_t f : round) {
@@ -256,7 +256,7 @@ class Kinks {
       note(0, face);
       for (const auto& [g, e] : face.beside)
         if (!ends[e] && std::find(round.begin(), round.end(), g) == round.end() &&
-            (faces_[g].centre - face.centre).dot(away) > std::abs((faces_[g].centre - face.centre).dot(place.along)))
+            (faces_[g].centre - face.centre).dot(away) > std::abs((faces_[g].centre - face.centre).dot(frame.along)))
           note(1, faces_[g]);
     }
     for (const std::size_t row : {0U, 1U}) result.next[row] /= std::max(result.faces[row], 1);
@@ -265,13 +265,13 @@ class Kinks {
 
   // With the larger curvature for the bend, in the least squares of both sides over the squared distance: exact on spheres and
   // cylinders.
-  void fit(const Edge& edge, const Place& place, Surface& surface) const
+  void fit(const Edge& edge, const Frame& frame, Surface& surface) const
   {
     std::vector<Local> nodes;
     for (const std::size_t f : surface.round)
       for (const Local n : faces_[f].nodes)
         if (n != edge.a && n != edge.b && std::find(nodes.begin(), nodes.end(), n) == nodes.end()) nodes.push_back(n);
-    const double unit = surface.depth, half = place.half / unit;
+    const double unit = surface.depth, half = frame.half / unit;
     Eigen::Vector4d found = Eigen::Vector4d::Zero();
     double bend = 0;
     for (int step = 0; step < steps; ++step) {
@@ -279,8 +279,8 @@ class Kinks {
       Eigen::Matrix4d matrix = Eigen::Vector4d(0, held, held, held).asDiagonal();
       Eigen::Vector4d right = Eigen::Vector4d::Zero();
       for (const Local n : nodes) {
-        const Point d = (all_.at(n) - place.middle) / unit;
-        const double x = d.dot(place.along), y = d.dot(surface.away), z = d.dot(place.normal), weight = 1 / d.squaredNorm();
+        const Point d = (all_.at(n) - frame.middle) / unit;
+        const double x = d.dot(frame.along), y = d.dot(surface.away), z = d.dot(frame.normal), weight = 1 / d.squaredNorm();
         const Eigen::Vector4d row = weight * Eigen::Vector4d(y, y * y / 2, x * y, (x * x - half * half) / 2);
         matrix += row * row.transpose();
         right += weight * (z - bend * z * z / 2) * row;
@@ -293,16 +293,16 @@ class Kinks {
   }
 
   // How much steeper than the surface of the other side, continued, the nodes of a face lie.
-  double turn_beyond(const Surface& known, const Edge& edge, const Face& face, const Place& place) const
+  double turn_beyond(const Surface& known, const Edge& edge, const Face& face, const Frame& frame) const
   {
     double sum = 0;
     int count = 0;
     for (const Local n : face.nodes) {
       if (n == edge.a || n == edge.b) continue;
-      const Point d = all_.at(n) - place.middle;
-      const double x = d.dot(place.along), y = d.dot(known.away), z = d.dot(place.normal);
+      const Point d = all_.at(n) - frame.middle;
+      const double x = d.dot(frame.along), y = d.dot(known.away), z = d.dot(frame.normal);
       const double continued =
-          known.slope * y + known.across * y * y / 2 + known.twist * x * y + known.along * (x * x - place.half * place.half) / 2;
+          known.slope * y + known.across * y * y / 2 + known.twist * x * y + known.along * (x * x - frame.half * frame.half) / 2;
       sum += (z - known.bend * z * z / 2 - continued) / -y;
       ++count;
     }

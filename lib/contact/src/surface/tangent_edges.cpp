@@ -31,7 +31,7 @@ class TangentEdges {
  private:
   using Edge = FaceEdges::Edge;
   using Face = FaceEdges::Face;
-  using Place = FaceEdges::Place;
+  using Frame = FaceEdges::Frame;
 
   // Faces reach so far from an edge, over what the one at the edge does, where there are two rows of them.
   static constexpr double two_rows = 1.5;
@@ -50,8 +50,8 @@ class TangentEdges {
   {
     const auto [first, last] = edge.faces;
     if (coplanar(first, last)) return std::nullopt;
-    const Place place = all_.place_of(edge);
-    auto back = two_rows_beyond(first, edge, place, -place.away), forth = two_rows_beyond(last, edge, place, place.away);
+    const Frame frame = all_.frame_of(edge);
+    auto back = two_rows_beyond(first, edge, frame, -frame.away), forth = two_rows_beyond(last, edge, frame, frame.away);
     if (!back && !forth) back = before_arc(first, last, edge), forth = before_arc(last, first, edge);
     if (back && forth && back->plane != forth->plane) return back->plane ? back : forth;
     if (back.has_value() == forth.has_value()) return std::nullopt;
@@ -61,17 +61,17 @@ class TangentEdges {
   bool coplanar(std::size_t f, std::size_t g) const { return (faces_[f].normal - faces_[g].normal).norm() < rounding; }
 
   // Where a face goes on to a second row away from an edge of its own, through faces of its plane that share nodes with it.
-  std::optional<Straight> two_rows_beyond(std::size_t own, const Edge& edge, const Place& place, const Point& away) const
+  std::optional<Straight> two_rows_beyond(std::size_t own, const Edge& edge, const Frame& frame, const Point& away) const
   {
     std::vector<std::size_t> flat{own};
     double farthest = 0;
     for (std::size_t i = 0; i < flat.size(); ++i) {
-      farthest = std::max(farthest, all_.depth(flat[i], place, away));
+      farthest = std::max(farthest, all_.depth(flat[i], frame, away));
       for (const auto& [f, e] : faces_[flat[i]].beside)
         if (!parted_[e] && coplanar(own, f) && all_.touch(f, own) && std::find(flat.begin(), flat.end(), f) == flat.end())
           flat.push_back(f);
     }
-    if (!(farthest > two_rows * all_.depth(own, place, away)) || between_bends(own, edge)) return std::nullopt;
+    if (!(farthest > two_rows * all_.depth(own, frame, away)) || between_bends(own, edge)) return std::nullopt;
     return faces_[own].nodes.size() == 2 || is_wide(flat) ? in_plane(own, edge) : along_strip(flat, edge);
   }
 

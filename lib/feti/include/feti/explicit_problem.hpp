@@ -25,10 +25,10 @@ class ExplicitProblem : public qp::ActiveSetPreconditioner {
   explicit ExplicitProblem(const DualProblem& problem, Global few = few_supports);
   ~ExplicitProblem() override;
 
-  using Point = qp::ExplicitProgramme::Point;
+  using Result = qp::ExplicitProgramme::Result;
   /// The solution in `set`, over the unknowns of problem.set(), for the linear term d and for e, the same on every rank. `near`:
   /// the solution of a problem before, with its reaction, to go on from; nothing else is tried. Collective.
-  Point solve(const Vector& linear, Eigen::VectorXd e, const qp::FeasibleSet& set, const Point* near = nullptr) const;
+  Result solve(const Vector& linear, Eigen::VectorXd e, const qp::FeasibleSet& set, const Result* near = nullptr) const;
   /// Whether the matrices differ from F by a little: where rows depend on each other they have some compliance that F has not,
   /// and where supports are eliminated the rounding of other factors. The same on every rank.
   bool differs() const { return separated_ || eliminated_; }

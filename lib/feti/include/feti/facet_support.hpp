@@ -25,10 +25,10 @@ namespace mortise::feti {
 /// `lambda`, `displacement`: a solution; `bounds`: r_i of each disc of problem.set(), forces; `slack`: part of the right
 /// side that counts as inexact. Returns `body "ring" rotates about ..` and how much of the load friction holds, or nothing where
 /// friction holds all. Collective.
-std::optional<std::string> held_by_facets(const DualProblem& problem, const partition::Decomposition& decomposition,
-                                          fem::Kinematics kinematics,
-                                          std::span<const constraint::SlidingSurface> sliding_surfaces, const Vector& lambda,
-                                          const std::vector<Eigen::VectorXd>& displacement, std::span<const double> bounds,
-                                          double slack);
+std::optional<std::string> supported_by_facets(const DualProblem& problem, const partition::Decomposition& decomposition,
+                                               fem::Kinematics kinematics,
+                                               std::span<const constraint::SlidingSurface> sliding_surfaces, const Vector& lambda,
+                                               const std::vector<Eigen::VectorXd>& displacement, std::span<const double> bounds,
+                                               double slack);
 
 }  // namespace mortise::feti

@@ -43,13 +43,13 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   explicit SparseProblem(const DualProblem& problem, bool patient = false);
   ~SparseProblem() override;
 
-  using Point = qp::ExplicitProgramme::Point;
+  using Result = qp::ExplicitProgramme::Result;
   /// The solution in `set`, over the unknowns of problem.set(), for f and c of `right`. Throws as qp::SparseNewton. Collective.
-  Point solve(const qp::RightHandSide& right, const qp::FeasibleSet& set) const;
+  Result solve(const qp::RightHandSide& right, const qp::FeasibleSet& set) const;
   /// The same for a linear term d and an e that differ from those of `right`, from a solution of a problem before on: its
   /// lambda, and its reaction, unless this problem was solved before. Nothing else is tried. Collective.
-  Point go_on(const qp::RightHandSide& right, const Vector& linear, const Eigen::VectorXd& e, const qp::FeasibleSet& set,
-              const Point& near) const;
+  Result go_on(const qp::RightHandSide& right, const Vector& linear, const Eigen::VectorXd& e, const qp::FeasibleSet& set,
+               const Result& near) const;
 
   Teuchos::RCP<const Map> getDomainMap() const override { return problem_.jump().rows(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return problem_.jump().rows(); }
@@ -62,8 +62,8 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   Eigen::SparseMatrix<double> motions_on_root() const;
   std::unique_ptr<const WholeInverse> make_inverse() const;
   Eigen::VectorXd on_root(const std::vector<Eigen::VectorXd>& parts) const;
-  Point solve(const std::vector<Eigen::VectorXd>& f, const Eigen::VectorXd& bound, const qp::FeasibleSet& set,
-              const Point* near) const;
+  Result solve(const std::vector<Eigen::VectorXd>& f, const Eigen::VectorXd& bound, const qp::FeasibleSet& set,
+               const Result* near) const;
 
   const DualProblem& problem_;
   std::unique_ptr<const RowsOnRoot> rows_;

@@ -49,12 +49,12 @@ std::vector<Undecided> undecided(const DualProblem& problem, const qp::FeasibleS
 std::vector<Stuck> stuck(const DualProblem& problem, const StateRecord& record, const Vector& x,
                          const qp::PredictedSolution* predicted);
 
-struct Place {
+struct BandPoint {
   Point at;
   bool open;  ///< not decided
 };
 /// The widest band of open points, in cells, from one point to the next: 2 where one row is open between decided points, 1 more
 /// for each further row. At up to some hundred of them, across the band, which is the way where it is narrowest.
-int widest_band(std::span<const Place> points);
+int widest_band(std::span<const BandPoint> points);
 
 }  // namespace mortise::feti

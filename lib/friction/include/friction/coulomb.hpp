@@ -47,8 +47,9 @@ struct CoulombWays {
 };
 
 struct CoulombSolution {
-  feti::DualSolution found;   ///< without its slip bounds and products
-  std::vector<double> radii;  ///< of the last problem that was solved or tried, see DualProblem::radii()
+  feti::DualSolution found;  ///< without its slip bounds and products
+  std::vector<double>
+      radii;  ///< slip bounds of the last problem that was solved or tried, as radii of discs: see DualProblem::radii()
 };
 
 /// Forces that obey the law. Throws Error(no_equilibrium) that names the body that moves and how where no such forces balance the

@@ -27,11 +27,11 @@ struct StateSummary {
     double algebraic = std::numeric_limits<double>::quiet_NaN();
   } error_estimate;
   double strain_energy = 0, max_von_mises = 0, max_displacement = 0;
-  struct Place {
+  struct Location {
     std::array<double, 3> coordinates{};
     std::string body;
   };
-  Place max_von_mises_place;
+  Location max_von_mises_place;
   struct Reaction {
     std::string boundary;  ///< of a support at points empty
     std::array<double, 3> force;
@@ -46,7 +46,7 @@ struct StateSummary {
     std::string largest, smallest;  ///< of an extreme: its quantity
     std::string axes = {};          ///< that components are along; empty: those of the model
     double value = 0;
-    Place place;
+    Location place;
     struct State {
       std::array<double, 3> displacement, principal_stress;
       std::array<double, 6> stress;

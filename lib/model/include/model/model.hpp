@@ -80,7 +80,7 @@ class Model {
   std::vector<FaceAction> face_actions(const LoadState& state, const Communicator& comm) const;
   /// For each body whether it is one of those `touched`, one of the deck's supports lies on it, or a coupling or a spring ties it
   /// to such a body. Collective.
-  std::vector<bool> held(const std::vector<bool>& touched, const Communicator& comm) const;
+  std::vector<bool> supported(const std::vector<bool>& touched, const Communicator& comm) const;
   struct Facts {
     double area = 0;
     Point centre = Point::Zero();

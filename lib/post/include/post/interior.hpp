@@ -22,7 +22,7 @@ struct Values {
 
 /// The part of a plane that lies in this rank's subdomains, as triangles.
 struct PlaneSection {
-  std::vector<Place> places;
+  std::vector<PointInCell> places;
   std::vector<std::array<Local, 3>> triangles;  ///< each of places of one subdomain
 };
 

@@ -11,7 +11,7 @@
 namespace mortise::post {
 
 /// A point in a subdomain.
-struct Place {
+struct PointInCell {
   std::size_t subdomain;      ///< of this rank
   std::size_t cell;           ///< of solid(); of a surface alone any
   Eigen::Vector3d reference;  ///< coordinates in the cell
@@ -35,7 +35,7 @@ struct PointInBody {
   std::size_t point;  ///< index into the points that were asked for
   Global row;         ///< counts points and, where one lies in several bodies, these, in the order of the catalogue
   int body;
-  Place place;
+  PointInCell place;
 };
 
 /// A point in no body.

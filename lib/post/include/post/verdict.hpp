@@ -19,7 +19,7 @@ struct Residuals {
   double projected_gradient = 0, equality = 0, equilibrium = 0;
   double penetration = 0;      ///< over the largest displacement
   double complementarity = 0;  ///< sum of |gap * force| over twice the strain energy
-  double supports = 0;         ///< how far held nodes are from where they are held, over the largest displacement
+  double supports = 0;         ///< how far prescribed nodes are from where they should be, over the largest displacement
   double interfaces = 0;       ///< how far copies of a node, and bonded nodes, are from each other, over the same
 };
 

@@ -34,7 +34,7 @@ class CondensedNewton {
   /// solve() does, Error(interrupted) if the process is told to end.
   CondensedNewton(Eigen::MatrixXd a, Eigen::MatrixXd g, Eigen::MatrixXd c, const FeasibleSet& set);
 
-  struct Point {
+  struct Result {
     Eigen::VectorXd x, nu;          ///< A x - b + G'nu in the normal cone of -Omega, G x - C_0 nu = e
     bool converged = false;         ///< to rounding; else the last guess
     int steps = 0;                  ///< linear problems solved
@@ -43,9 +43,9 @@ class CondensedNewton {
     bool slides = false;
     bool settled = true;  ///< if it converged: with states that the next guess left as they are, not by rounding alone
   };
-  /// For the linear term b and the right-hand side e. `near`: the solution of a problem before, if it converged, or a guess at this
-  /// one's, with its reaction, from whose states guesses go on; nothing else is tried then.
-  Point solve(const Eigen::VectorXd& b, const Eigen::VectorXd& e, const FeasibleSet& set, const Point* near = nullptr) const;
+  /// For the linear term b and the right-hand side e. `near`: the solution of a problem before, if it converged, or a guess at
+  /// this one's, with its reaction, from whose states guesses go on; nothing else is tried then.
+  Result solve(const Eigen::VectorXd& b, const Eigen::VectorXd& e, const FeasibleSet& set, const Result* near = nullptr) const;
   /// Whether rows depend on each other, and so A has been given a little compliance more.
   bool separated() const { return separated_; }
   /// A^-1 r, over all unknowns.

@@ -59,7 +59,7 @@ class FaceNewton {
   double rounding_of_motions(const Run& run, const Projection& natural) const;
   void find_error(Run& run, const Projection& natural);
   bool is_compatible(const Run& run) const;
-  bool radii_settled(const Run& run) const;
+  bool radii_at_rest(const Run& run) const;
   bool contact_converged(const Run& run, const Projection& natural);
   bool is_solved(Run& run, const Projection& natural);
   double size_of_residuals(const Run& run) const;

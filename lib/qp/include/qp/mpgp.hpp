@@ -13,7 +13,7 @@ namespace mortise::qp {
 using Product = std::function<void(const Vector& x, Vector& y)>;
 
 /// A point with its gradient.
-struct Point {
+struct Iterate {
   Vector x;
   Vector gradient;  ///< H x - c
 };
@@ -27,10 +27,10 @@ struct MpgpOptions {
 /// Improves `point`, which must lie in Omega with its true gradient, until `done(measure, point)` says so; `measure` is the norm
 /// of the reduced projected gradient (x - P_Omega(x - a g)) / a. `norm` is ||H|| as far as known and is raised when a direction
 /// shows more. `done` is called once an iteration with the same arguments on all ranks. Collective.
-void mpgp(const Product& hessian, const FeasibleSet& set, Point& point, double& norm, const MpgpOptions& options,
-          const std::function<bool(double measure, const Point& point)>& done);
+void mpgp(const Product& hessian, const FeasibleSet& set, Iterate& point, double& norm, const MpgpOptions& options,
+          const std::function<bool(double measure, const Iterate& point)>& done);
 
 /// ||x - P_Omega(x - a g)|| / a. Collective.
-double reduced_gradient(const FeasibleSet& set, const Point& point, double a);
+double reduced_gradient(const FeasibleSet& set, const Iterate& point, double a);
 
 }  // namespace mortise::qp

@@ -21,7 +21,7 @@ namespace mortise::qp {
 
 /// A programme whose Hessian is at hand as a matrix.
 struct ExplicitProgramme {
-  struct Point {
+  struct Result {
     Vector x;
     Eigen::VectorXd nu;
     bool converged = false;  ///< exact to rounding; else the last guess, or one to begin with
@@ -32,12 +32,12 @@ struct ExplicitProgramme {
   };
   std::shared_ptr<ActiveSetPreconditioner> inverse;  ///< A^-1
   /// Solves in a set over the programme's unknowns; radii of discs with a coefficient follow their normal unknown. Collective.
-  std::function<Point(const RightHandSide& right, const FeasibleSet& set)> solve;
+  std::function<Result(const RightHandSide& right, const FeasibleSet& set)> solve;
   /// The same for b and e that differ from those of `right`, from the states of constraints at `near`: the solution of a problem
   /// before, if it converged, or states of this one that may be nearly right. Nothing else is tried. Empty if it cannot.
   /// Collective.
-  std::function<Point(const RightHandSide& right, const Vector& b, const Eigen::VectorXd& e, const FeasibleSet& set,
-                      const Point& near)>
+  std::function<Result(const RightHandSide& right, const Vector& b, const Eigen::VectorXd& e, const FeasibleSet& set,
+                       const Result& near)>
       go_on = {};
   bool differs = false;  ///< whether the matrix differs from A by a little, so that go_on() has to correct solutions
   /// Other matrices, for where a solution with these does not converge or settle. Else empty. Collective.

@@ -1,11 +1,11 @@
 // Exact solution of a contact problem in displacements and multipliers, by the direct method of condensed_newton.hpp with sparse
-// matrices: for many multipliers, where a dense compliance takes n^3 operations, and for bodies whose stiffness has small factors,
-// as plates.
+// matrices: for many multipliers, where a dense compliance takes n^3 operations, and for bodies whose stiffness has small
+// factors, as plates.
 //
 //     minimise 1/2 u'K u - f'u + ..:   K u + B'x = f,   s = c - B u + S x,   s in the normal cone of Omega at x.
 //
-// With K_r positive definite, K_r^-1 a generalised inverse of K and R the kernel of K, x solves the programme of problem.hpp with A
-// = B K_r^-1 B' + S, b = B K_r^-1 f - c, G = R'B', e = R'f. An interior point method leads from soft contact near the solution
+// With K_r positive definite, K_r^-1 a generalised inverse of K and R the kernel of K, x solves the programme of problem.hpp with
+// A = B K_r^-1 B' + S, b = B K_r^-1 f - c, G = R'B', e = R'f. An interior point method leads from soft contact near the solution
 // (src/central_path.hpp), and guesses of states end it: some 15 to 40 sparse factors.
 #pragma once
 
@@ -18,9 +18,9 @@
 namespace mortise::qp {
 
 struct SparseMatrices {
-  SparseMatrix k;                                          ///< K, lower triangle: symmetric, positive semidefinite
-  Eigen::SparseMatrix<double, Eigen::RowMajor, int> b;     ///< B: rows x unknowns of K
-  Eigen::VectorXd s;                                       ///< S, diagonal: what rows give way by themselves
+  SparseMatrix k;                                       ///< K, lower triangle: symmetric, positive semidefinite
+  Eigen::SparseMatrix<double, Eigen::RowMajor, int> b;  ///< B: rows x unknowns of K
+  Eigen::VectorXd s;                                    ///< S, diagonal: what rows give way by themselves
 };
 
 /// On one rank alone. Heavy: neither copies nor moves.
@@ -30,11 +30,11 @@ class SparseNewton {
   /// those of CondensedNewton are. Where nothing balances the loads that may end with what is no solution.
   explicit SparseNewton(SparseMatrices matrices, bool patient = false);
 
-  /// Point::nu is u, Point::reaction s, of all rows. `set` over the rows of B; rows that are in none of its factors are equations.
-  /// Throws Error(interrupted) if the process is told to end, and Error(machine) if memory runs out.
-  /// `near`: the solution of a problem before, with its reaction, from whose states guesses go on; nothing else is tried then.
-  CondensedNewton::Point solve(const Eigen::VectorXd& f, const Eigen::VectorXd& c, const FeasibleSet& set,
-                               const CondensedNewton::Point* near = nullptr) const;
+  /// Result::nu is u, Result::reaction s, of all rows. `set` over the rows of B; rows that are in none of its factors are
+  /// equations. Throws Error(interrupted) if the process is told to end, and Error(machine) if memory runs out. `near`: the
+  /// solution of a problem before, with its reaction, from whose states guesses go on; nothing else is tried then.
+  CondensedNewton::Result solve(const Eigen::VectorXd& f, const Eigen::VectorXd& c, const FeasibleSet& set,
+                                const CondensedNewton::Result* near = nullptr) const;
 
  private:
   SparseMatrices matrices_;

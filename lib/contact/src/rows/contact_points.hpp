@@ -16,7 +16,7 @@
 
 namespace mortise::contact {
 
-struct PlaceBetween {
+struct ContactPoint {
   std::size_t surface_node;  ///< the nearest
   Global node;               ///< there
   Rays::FacetPoint where;
@@ -33,13 +33,13 @@ struct Cover {
   int body = -1;    ///< of the other side, one that hangs together; -1: several, or none
 };
 
-struct PlacesBetween {
-  std::vector<PlaceBetween> places;  ///< those whose nodes are this rank's own
+struct ContactPoints {
+  std::vector<ContactPoint> places;  ///< those whose nodes are this rank's own
   std::vector<char> in_facets;       ///< of each face of the secondary side: of second order and round a place
 };
 
 /// Takes such places out of `nearest`: their nodes keep rows of their own. Collective.
-PlacesBetween take_places_between(std::vector<NearestPoint>& nearest, const Side& secondary, const SurfaceNodes& surface_nodes,
+ContactPoints take_contact_points(std::vector<NearestPoint>& nearest, const Side& secondary, const SurfaceNodes& surface_nodes,
                                   const CutFaces& faces, const std::vector<char>& own,
                                   const std::function<Cover(std::size_t face)>& cover, const Communicator& comm);
 

@@ -1,4 +1,4 @@
-#include "rows/held_by_others.hpp"
+#include "rows/tied_by_others.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -138,7 +138,7 @@ class Pads {
 
 }  // namespace
 
-std::vector<char> held_by_others(const Side& secondary, CutFaces& faces, const std::vector<char>& aside,
+std::vector<char> tied_by_others(const Side& secondary, CutFaces& faces, const std::vector<char>& aside,
                                  const std::vector<char>& stay, int dimension)
 {
   std::vector<char> result = aside;

@@ -11,7 +11,7 @@ namespace mortise::contact {
 /// what of the primary side its own meets against rotations as well: the centres of what they see spread, weighted with their
 /// areas, in two directions (in plane models one) by a part of what those of all do. A rotation about a line on which they lay
 /// would be free. `dimension`: 2 or 3. Needs a ring of faces round those of which it is asked.
-std::vector<char> held_by_others(const Side& secondary, CutFaces& faces, const std::vector<char>& aside,
+std::vector<char> tied_by_others(const Side& secondary, CutFaces& faces, const std::vector<char>& aside,
                                  const std::vector<char>& stay, int dimension);
 
 }  // namespace mortise::contact

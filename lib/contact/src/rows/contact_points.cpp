@@ -1,4 +1,4 @@
-#include "rows/places_between.hpp"
+#include "rows/contact_points.hpp"
 
 #include <algorithm>
 #include <map>
@@ -56,10 +56,10 @@ class Selection {
     });
   }
 
-  PlaceBetween place(std::size_t p, const NearestPoint& nearest) const
+  ContactPoint place(std::size_t p, const NearestPoint& nearest) const
   {
     const auto id = [&](Local n) { return secondary_.node_id[static_cast<std::size_t>(n)]; };
-    PlaceBetween place{p, id(nodes_.all[p].node), {nearest.facet, nearest.shape}, Point::Zero(), Point::Zero(), {}, {}, {}};
+    ContactPoint place{p, id(nodes_.all[p].node), {nearest.facet, nearest.shape}, Point::Zero(), Point::Zero(), {}, {}, {}};
     const auto corners = secondary_.facets[nearest.facet];
     for (std::size_t c = 0; c < corners.size(); ++c) {
       const auto corner = static_cast<std::size_t>(corners[c]);
@@ -136,7 +136,7 @@ class Selection {
 
 }  // namespace
 
-PlacesBetween take_places_between(std::vector<NearestPoint>& nearest, const Side& secondary, const SurfaceNodes& surface_nodes,
+ContactPoints take_contact_points(std::vector<NearestPoint>& nearest, const Side& secondary, const SurfaceNodes& surface_nodes,
                                   const CutFaces& faces, const std::vector<char>& own,
                                   const std::function<Cover(std::size_t face)>& cover, const Communicator& comm)
 {
@@ -144,7 +144,7 @@ PlacesBetween take_places_between(std::vector<NearestPoint>& nearest, const Side
   // Of its shape function: such a node may as well stand in for the place. In facets of faces of second order, among neighbours
   // whose functions are those of whole faces, it would bear a tenth too much.
   constexpr double beside_node = 0.85, beside_node_of_second_order = 0.995;
-  PlacesBetween result{{}, std::vector<char>(secondary.faces.size(), 0)};
+  ContactPoints result{{}, std::vector<char>(secondary.faces.size(), 0)};
   if (!comm.any(std::ranges::any_of(nearest, &NearestPoint::moved))) return result;
   Selection selection(secondary, surface_nodes, faces, cover);
   // The rank of a node sees all faces round the place; the others are told.
