@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "testing/blocks.hpp"
 #include "testing/proximal_gradient.hpp"
+#include "testing/stack.hpp"
 
 namespace mortise::analysis {
 namespace {
@@ -21,7 +21,7 @@ using friction::Law;
 using friction::Reference;
 using LawKind = Law::Kind;
 
-constexpr std::size_t contact_points = 16;  // of Stack
+constexpr std::size_t contact_points = 16;  // of PushedStack
 
 // Nodal force at a point on top: pressed harder towards x = 1, and pushed along x.
 Point force_at(const Point& at, double push)
@@ -29,11 +29,8 @@ Point force_at(const Point& at, double push)
   return {push, 0, -0.3 - 1.5 * std::max(at[0] - 0.3, 0.0)};
 }
 
-struct Stack : feti::Blocks {
-  Stack(double push, bool tangents, int pieces, MPI_Comm mpi = MPI_COMM_WORLD)
-      : Blocks(
-            {{"lower", {{0, 0, 0}, {1, 1, 1}, {3, 3, 2}, "hex8"}}, {"upper", {{0, 0, 1}, {1, 1, 1}, {3, 3, 3}, "hex8"}}},
-            {{"lower", {1, 1, 1}}, {"upper", {1, 1, pieces}}}, [](int) { return 100.0; }, mpi)
+struct PushedStack : feti::Stack {
+  PushedStack(double push, bool tangents, int pieces, MPI_Comm mpi = MPI_COMM_WORLD) : Stack({1, 3, pieces}, 100, mpi)
   {
     for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
       const auto& points = decomposition.subdomains[s].mesh.points;
@@ -52,7 +49,7 @@ class Displacements {
   // Relative displacements w of the upper block's contact nodes, all others eliminated: S w - c are minus the contact forces.
   explicit Displacements(double push)
   {
-    const Stack stack(push, true, 1, MPI_COMM_SELF);
+    const PushedStack stack(push, true, 1, MPI_COMM_SELF);
     const auto below = stack.nodes_of("lower.zmax"), above = stack.nodes_of("upper.zmin");
     points_ = static_cast<Eigen::Index>(above.size());
     // Unknowns: w, then all displacements that are free, those of the lower block's contact nodes among them.
@@ -92,7 +89,7 @@ class Displacements {
     c_ = f.head(w) - coupling.transpose() * f.tail(rest);
     // In the frame of each point.
     Eigen::MatrixXd frame(3, 3);
-    for (int i = 0; i < 3; ++i) frame.col(i) = Stack::frame()[static_cast<std::size_t>(i)];
+    for (int i = 0; i < 3; ++i) frame.col(i) = PushedStack::frame()[static_cast<std::size_t>(i)];
     for (Eigen::Index p = 0; p < points_; ++p) {
       s_.middleRows(3 * p, 3) = (frame.transpose() * s_.middleRows(3 * p, 3)).eval();
       s_.middleCols(3 * p, 3) = (s_.middleCols(3 * p, 3) * frame).eval();
@@ -179,7 +176,7 @@ TEST_P(TwoBlocks, HaveTheForcesOfTheAssembledMatrix)
   const bool slow = algorithm == std::string("smalse");
   const double tolerance = slow ? 1e-7 : 1e-9;
   for (const int pieces : {1, 3}) {
-    Stack stack(push, law.kind != LawKind::frictionless, pieces);
+    PushedStack stack(push, law.kind != LawKind::frictionless, pieces);
     auto problem = stack.problem();
     qp::Options options;
     options.algorithm = algorithm;
@@ -205,7 +202,7 @@ TEST_P(TwoBlocks, HaveTheForcesOfTheAssembledMatrix)
 TEST(TwoBlocksPushedTooHard, AreNoEquilibrium)
 {
   for (const char* algorithm : {"face_newton", "smalse"}) {
-    Stack stack(0.5, true, 1);
+    PushedStack stack(0.5, true, 1);
     auto problem = stack.problem();
     qp::Options options;
     options.algorithm = algorithm;
@@ -226,7 +223,7 @@ TEST(TwoBlocksWithFewProducts, EndWithoutASolution)
 {
   const Law law{LawKind::coulomb, 0.4};
   for (const bool waiting : {true, false}) {
-    Stack stack(0.15, true, 3);
+    PushedStack stack(0.15, true, 3);
     auto problem = stack.problem();
     qp::Options options;
     options.algorithm = "face_newton";
@@ -245,7 +242,7 @@ TEST(TwoBlocksWithFewProducts, EndWithoutASolution)
 // The second load step is the first one again: it starts from its solution and has next to nothing to do.
 TEST(TwoBlocksAgain, StartFromWhatIsKnown)
 {
-  Stack stack(0.15, true, 3);
+  PushedStack stack(0.15, true, 3);
   auto problem = stack.problem();
   qp::Options options;
   options.algorithm = "face_newton";

@@ -16,7 +16,7 @@
 #include "feti/row_distribution.hpp"
 #include "feti/sparse_problem.hpp"
 #include "qp/face_newton.hpp"
-#include "testing/blocks.hpp"
+#include "testing/stack.hpp"
 
 namespace mortise::feti {
 namespace {
@@ -25,7 +25,7 @@ constexpr double coefficient = 0.4;
 
 // What a stack has beside the supports below.
 struct Variant {
-  bool upper_held = false;                // along x on top, where there is a preload along all axes
+  bool upper_prescribed = false;          // along x on top, where there is a preload along all axes
   bool skew_supports = false;             // at nodes of the lower block that are prescribed along another axis, too
   bool rotated = false;                   // the operator of the upper block is that of a rotated copy
   double moved = 0;                       // along x, by all supports
@@ -35,19 +35,16 @@ struct Variant {
   bool preloaded() const { return force || shortening; }
 };
 
-// Held at z = 0; pressed down and pushed sideways on top, where the upper block stands on the nodes of the lower one.
-struct Stack : Blocks {
-  Stack(const Point& traction, int pieces, const Variant& variant = {})
-      : Blocks(
-            {{"lower", {{0, 0, 0}, {1, 1, 1}, {3, 3, 2}, "hex8"}}, {"upper", {{0, 0, 1}, {1, 1, 2}, {3, 3, 4}, "hex8"}}},
-            {{"lower", {1, 1, 1}}, {"upper", {1, 1, pieces}}}, [](int) { return 1000.0; }, MPI_COMM_WORLD, 1,
-            [&](const partition::Subdomain& s) {
-              return variant.rotated && s.body == 1 ? std::optional(rotate()) : std::nullopt;
-            })
+// Prescribed at z = 0; pressed down and pushed sideways on top, where the upper block stands on the nodes of the lower one.
+struct PressedStack : Stack {
+  PressedStack(const Point& traction, int pieces, const Variant& variant = {})
+      : Stack({2, 4, pieces}, 1000, MPI_COMM_WORLD, [&](const partition::Subdomain& s) {
+          return variant.rotated && s.body == 1 ? std::optional(rotate()) : std::nullopt;
+        })
   {
     add_traction("upper.zmax", traction);
     std::vector<constraint::Support> supports{{"lower.zmin", {variant.moved, 0, 0}}};
-    if (variant.upper_held) {
+    if (variant.upper_prescribed) {
       const std::optional<double> others = variant.preloaded() ? std::optional(0.0) : std::nullopt;
       supports.push_back({"upper.zmax", {variant.moved, others, others}});
     }
@@ -104,10 +101,10 @@ struct Dense {
       problem.hessian().apply(unit, product);
       f.col(j) = whole(product);
     }
-    struct Point {
+    struct Unknowns {
       Local normal, first, second;
     };
-    std::vector<Point> points;
+    std::vector<Unknowns> points;
     for (const auto& bound : problem.set().bounds()) points.push_back({number(bound.index), -1, -1});
     for (std::size_t i = 0; i < problem.set().discs().size(); ++i) {
       const auto& disc = problem.set().discs()[i];
@@ -146,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(Piecewise, Varied,
 TEST_P(Varied, HasTheInverseOfTheDualOperator)
 {
   const auto& [pieces, variant] = GetParam();
-  const Stack stack(Point(1, 0.5, -10), pieces, variant);
+  const PressedStack stack(Point(1, 0.5, -10), pieces, variant);
   DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
                       stack.context);
   ExplicitProblem direct(problem, 0);
@@ -168,7 +165,7 @@ TEST_P(Varied, HasTheInverseOfTheDualOperator)
 TEST_P(Varied, SolvesAsWithoutElimination)
 {
   const auto& [pieces, variant] = GetParam();
-  const Stack stack(Point(1, 0.5, -10), pieces, variant);
+  const PressedStack stack(Point(1, 0.5, -10), pieces, variant);
   DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
                       stack.context);
   auto set = problem.set();
@@ -192,7 +189,7 @@ TEST_P(Varied, SolvesAsWithoutElimination)
 TEST_P(Varied, SolvesAsWithSparseMatrices)
 {
   const auto& [pieces, variant] = GetParam();
-  const Stack stack(Point(1, 0.5, -10), pieces, variant);
+  const PressedStack stack(Point(1, 0.5, -10), pieces, variant);
   if (variant.force) GTEST_SKIP() << "not for unknowns of their own";
   DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
                       stack.context);
@@ -246,7 +243,7 @@ INSTANTIATE_TEST_SUITE_P(PushesAndPieces, Directly,
 TEST_P(Directly, SolvesAsFaceNewtonDoes)
 {
   const auto [push, pieces] = GetParam();
-  const Stack stack(Point(push, 0, -10), pieces);
+  const PressedStack stack(Point(push, 0, -10), pieces);
   DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
                       stack.context);
   auto set = problem.set();
@@ -286,7 +283,7 @@ TEST_P(Directly, SolvesAsFaceNewtonDoes)
 // Bodies whose supports are eliminated are factorized by the solver of the deck.
 TEST(ExplicitProblem, TakesTheFactorizationThatIsAskedFor)
 {
-  const Stack stack(Point(1, 0.5, -10), 2);
+  const PressedStack stack(Point(1, 0.5, -10), 2);
   const auto solve = [&](const std::string& factorization) {
     DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load,
                         {.factorization = factorization, .preconditioner = "none"}, stack.context);
@@ -304,7 +301,7 @@ TEST(ExplicitProblem, TakesTheFactorizationThatIsAskedFor)
 
 TEST(ExplicitProblem, SaysWhereNothingBalancesTheLoads)
 {
-  const Stack stack(Point(4.5, 0, -10), 1);  // friction holds 4
+  const PressedStack stack(Point(4.5, 0, -10), 1);  // friction holds 4
   DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
                       stack.context);
   auto set = problem.set();

@@ -302,6 +302,58 @@ TEST(Solvers, SmalseTakesOverWhereFaceNewtonCrawls)
   }
 }
 
+// Products that are off by so much of their size, each time otherwise, until they are exact.
+class RoughOperator : public Operator {
+ public:
+  explicit RoughOperator(const Operator& a, double off) : a_(a), off_(off) {}
+  Teuchos::RCP<const Map> getDomainMap() const override { return a_.getDomainMap(); }
+  Teuchos::RCP<const Map> getRangeMap() const override { return a_.getRangeMap(); }
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override
+  {
+    a_.apply(x, y, mode, alpha, beta);
+    if (exact) return;
+    MultiVector noise(y.getMap(), 1);
+    auto values = view(*noise.getVectorNonConst(0));
+    for (auto& value : values) value = normal_(random_);
+    y.update(off_ * y.getVector(0)->norm2() / noise.getVector(0)->norm2(), noise, 1);
+  }
+  bool exact = false;
+
+ private:
+  const Operator& a_;
+  double off_;
+  mutable std::mt19937 random_{11};
+  mutable std::normal_distribution<double> normal_;
+};
+
+// Face Newton finds nothing better than rough products allow; once they are exact, SMALSE-M goes on to the solution.
+TEST(Solvers, SmalseConvergesAfterItHasTakenOver)
+{
+  Setting setting;
+  auto& programme = setting.programme;
+  RoughOperator a(programme.a, 1e-6);
+  Hessian hessian(a, 4000);
+  Budget budget(hessian, {}, false);
+  budget.start(std::nullopt);
+  const auto solver = solver_kind("face_newton").make({hessian, programme.equality, programme.set}, {budget, nullptr, {}});
+  Goal goal{1e-8};
+  std::optional<Solution> start;
+  setting.begin(*solver, start, goal);
+  int of_smalse = 0;  // outer steps
+  const Solution solution = setting.solve(*solver, start, goal, [&](const Progress& progress) {
+    if (progress.what != "outer" || !(progress.precision > 0)) return;
+    ++of_smalse;
+    a.exact = true;
+  });
+  EXPECT_GE(of_smalse, 2);
+  EXPECT_LT(of_smalse, solution.outer_iterations);
+  EXPECT_TRUE(solution.converged);
+  // What rough products left in the gradient stays, since that is carried on.
+  EXPECT_LT(kkt(solution, programme.problem), 1e-5);
+  const Eigen::VectorXd exact = programme.reference();
+  EXPECT_LT((gathered(solution.x, world()) - exact).norm(), 1e-5 * exact.norm());
+}
+
 // As many equations as unknowns: P A P is rounding, and steps over it would drown a small right-hand side.
 TEST(Solvers, WhereTheEquationsLeaveNothingFreeTheyHoldToRounding)
 {
