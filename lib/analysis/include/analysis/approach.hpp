@@ -59,7 +59,7 @@ struct Outcome {
 
 /// To be called where an exception is handled that an approach threw after so many products with F, those of earlier approaches
 /// included. Rounding and lack of memory may spoil a direct solution, and not products with F: then the outcome of this attempt;
-/// else the exception goes on.
+/// else the exception goes on. Not collective: any rank may come here.
 Outcome failed(const Approach& approach, int spent, const Communicator& comm);
 
 /// Solves all load steps by one approach on one decomposition. Collective.

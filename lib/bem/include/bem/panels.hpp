@@ -20,6 +20,7 @@ struct PanelsIn {
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(corners.size()); }       ///< m, panels
   Eigen::Index node_count() const { return static_cast<Eigen::Index>(points.size()); }  ///< n, nodes
+  /// The k-th corner of a panel, k < D.
   const Point& corner(std::size_t panel, int k) const
   {
     return points[static_cast<std::size_t>(corners[panel][static_cast<std::size_t>(k)])];

@@ -24,6 +24,7 @@ class ParticularSolution {
 
   /// Whether there is neither a force per volume nor an expansion.
   bool is_zero() const { return expansion_ == 0 && force_ == 0; }
+  /// u_p at a point, a length.
   Point displacement(const Point& x) const;
   /// Of the force alone, since what expands freely has no stress. In a plane model that of in_plane()'s material in plane strain.
   fem::Stress stress(const Point& x) const;
@@ -33,10 +34,10 @@ class ParticularSolution {
   /// Its part from the force, which strains the body elastically, at the nodes, D n.
   template <int D>
   Eigen::VectorXd displacement_of_force(const PanelsIn<D>& panels) const;
-  /// t_p, means over the panels, D m.
+  /// t_p, forces per area, means over the panels, D m.
   template <int D>
   Eigen::VectorXd traction(const PanelsIn<D>& panels) const;
-  /// Integral of t_p phi, D n.
+  /// Integral of t_p phi, forces, D n; in a plane model per thickness.
   template <int D>
   Eigen::VectorXd nodal_forces(const PanelsIn<D>& panels) const;
   /// Integral of sigma(u_p) : e(u_p) / 2 over the inside, and in plane strain of what the held expansion across the plane adds to

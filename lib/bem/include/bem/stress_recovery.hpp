@@ -67,12 +67,12 @@ class StressRecovery {
   std::vector<std::vector<std::size_t>> around_;  // panels of each node
 };
 
-/// Of each node the stress round it.
+/// Of each node the stress round it, forces per area: n of them. `values`: at the same nodes and panels.
 template <int D>
 std::vector<LinearStress> recovered_stresses(const PanelsIn<D>& panels, const fem::Material& material,
                                              const SurfaceValues& values);
 
-/// Each node's part, 1 / D, of the area of its panels.
+/// Each node's part, 1 / D, of the area (of lines the length) of its panels: n of them.
 template <int D>
 Eigen::VectorXd nodal_areas(const PanelsIn<D>& panels);
 

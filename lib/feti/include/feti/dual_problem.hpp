@@ -96,7 +96,7 @@ class DualProblem {
   /// Rows of B, and the sum of the kernels' dimensions, over all ranks.
   Global dual_unknowns() const { return static_cast<Global>(jump_->rows()->getGlobalNumElements()); }
   int kernel_dimension() const { return system_.clusters.kernel_dimension(); }
-  /// The shortening of each of constraints().pretension_sections, given or found.
+  /// The shortening of each of constraints().pretension_sections, given or found: a length, the same on every rank.
   std::vector<double> shortenings(const Eigen::VectorXd& nu) const;
   /// Where in nu the unknown motions of rigid couplings begin, in the order of constraint::unknown_motions(): behind the kernels'
   /// coordinates and the shortenings that are unknown.

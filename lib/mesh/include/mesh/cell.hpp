@@ -43,6 +43,7 @@ int dimension(CellType type);          ///< 1 of lines, 2 of triangles and quadr
 int node_count(CellType type);         ///< nodes of a cell
 int corner_count(CellType type);       ///< nodes of the first-order cell of that shape
 CellType first_order(CellType type);   ///< hex8 for hex27
+/// Whether it has nodes in the middle of its edges.
 inline bool second_order(CellType type)
 {
   return type != first_order(type);

@@ -19,7 +19,8 @@ std::vector<io::Table> cell_tables(const partition::Decomposition& decomposition
 /// `contact/points`: rows by contact and node, whatever ranks they come from. Collective.
 io::Table contact_table(const std::vector<contact::ContactNodeState>& nodes, const Communicator& comm);
 
-/// `dual/multipliers`: the force of each row of B.
+/// `dual/multipliers`: the force of each row of B that is this rank's, in the order of its rows; in units of force, as
+/// feti::DualProblem::forces() says.
 io::Table multiplier_table(const feti::DualProblem& problem, const Vector& lambda);
 
 /// `interior/..` of nodes inside boundary elements, which have the numbers after all others, and `points/..` of the deck's

@@ -32,6 +32,7 @@ class Hessian {
   }
   int count() const { return count_; }                 ///< applications so far, the same on all ranks
   bool exhausted() const { return count_ >= limit_; }  ///< whether the limit is reached; apply() works beyond it
+  /// Another number of applications after which it is exhausted; the same on all ranks.
   void set_limit(int limit) { limit_ = limit; }
   Teuchos::RCP<const Map> map() const { return a_->getDomainMap(); }
 
