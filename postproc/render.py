@@ -21,6 +21,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "report"))
 import fields  # noqa: E402
 import pictures  # noqa: E402
 import raster  # noqa: E402
+import triangles  # noqa: E402
 
 # From which side the eye looks, of plane models with z towards it.
 TOWARDS_THE_EYE = {"x": (1, 0, 0), "y": (0, -1, 0), "z": (0, 0, 1), "-x": (-1, 0, 0), "-y": (0, 1, 0), "-z": (0, 0, -1)}
@@ -85,16 +86,16 @@ def copied(surface, sectors):
     for k in range(sectors):
         angle = 2 * np.pi * k / sectors
         turn = np.array([[np.cos(angle), np.sin(angle), 0], [-np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
-        yield pictures.Surface(surface.name, surface.points @ turn, surface.triangles, surface.arrays, surface.cells)
+        yield triangles.Surface(surface.name, surface.points @ turn, surface.triangles, surface.arrays, surface.cells)
 
 
 def surfaces_of(parser, arguments, blocks):
     if arguments.cut:  # what is behind the plane, and the section
         point, normal = arguments.cut[:3], arguments.cut[3:]
-        behind = pictures.plane_of(point, normal)
-        found = [part for name, grid in blocks for part in (pictures.outside(name, grid, behind), pictures.cut(name, grid, point, normal))]
+        behind = triangles.plane_of(point, normal)
+        found = [part for name, grid in blocks for part in (triangles.outside(name, grid, behind), triangles.cut(name, grid, point, normal))]
     else:
-        found = [pictures.outside(name, grid) for name, grid in blocks]
+        found = [triangles.outside(name, grid) for name, grid in blocks]
     found = [s for s in found if s is not None]
     if not found:
         lines = arguments.contact and not arguments.cut

@@ -82,6 +82,27 @@ LinearStress StressRecovery<D>::at(Local node, const SurfaceValues& values) cons
   return result;
 }
 
+namespace {
+
+// mu (second derivatives of v) + (lambda + mu) grad div v, of the coefficients of v.
+template <int D>
+Eigen::MatrixXd equilibrium(double mu, double lambda)
+{
+  using Polynomial = Quadratic<D>;
+  using Tensor = Eigen::Matrix<double, D, D>;
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(D, D * Polynomial::monomials);
+  for (int m = D + 1; m < Polynomial::monomials; ++m) {
+    Tensor hessian = Tensor::Zero();
+    const auto [i, j] = Polynomial::factors(m - D - 1);
+    hessian(i, j) += Polynomial::factor(m - D - 1);
+    hessian(j, i) += Polynomial::factor(m - D - 1);
+    result.middleCols<D>(D * m) = mu * hessian.trace() * Tensor::Identity() + (lambda + mu) * hessian;
+  }
+  return result;
+}
+
+}  // namespace
+
 template <int D>
 typename StressRecovery<D>::Fit StressRecovery<D>::fit(Local node, const SurfaceValues& values, const Patch& around,
                                                        const Fit* wider) const
@@ -135,14 +156,7 @@ typename StressRecovery<D>::Fit StressRecovery<D>::fit(Local node, const Surface
     b.segment<D>(row) = weight / young * values.forces.row(node).transpose();
     row += D;
   }
-  // mu (second derivatives of v) + (lambda + mu) grad div v
-  for (int m = D + 1; m < monomials; ++m) {
-    Tensor hessian = Tensor::Zero();
-    const auto [i, j] = Polynomial::factors(m - D - 1);
-    hessian(i, j) += Polynomial::factor(m - D - 1);
-    hessian(j, i) += Polynomial::factor(m - D - 1);
-    a.block<D, D>(row, D * m) = (mu * hessian.trace() * Tensor::Identity() + (lambda + mu) * hessian) / young;
-  }
+  a.middleRows<D>(row) = equilibrium<D>(mu, lambda) / young;
   row += D;
   if (wider) {
     const Eigen::Index first = D * (D + 1), count = D * monomials - first;

@@ -51,6 +51,13 @@ int compare(const ConstraintStates& before, ConstraintStates& now, std::vector<i
   return changes;
 }
 
+// Whether `look_back` guesses have not made the last number of changes half as large.
+bool takes_turns(const std::vector<int>& changes, int look_back)
+{
+  const auto back = static_cast<std::size_t>(look_back);
+  return changes.size() > back && 2 * changes.back() > changes[changes.size() - 1 - back];
+}
+
 }  // namespace
 
 // What slipped sticks first under other loads, as points of a plastic body are elastic first: slip that would go on may lead to
@@ -157,9 +164,7 @@ bool StateSearch::guess(int look_back)
     }
     last_step = std::move(nu_step);
     history.push_back(changes);
-    if (look_back > 0 && step >= look_back && changes > few &&
-        2 * changes > history[history.size() - 1 - static_cast<std::size_t>(look_back)])
-      return false;  // taking turns
+    if (look_back > 0 && changes > few && takes_turns(history, look_back)) return false;
     before = residual;
   }
   return false;
