@@ -39,10 +39,10 @@ struct Face {
   std::vector<int> nodes;
 };
 
-int dimension(CellType type);          ///< 1 of lines, 2 of triangles and quadrilaterals, else 3
-int node_count(CellType type);         ///< nodes of a cell
-int corner_count(CellType type);       ///< nodes of the first-order cell of that shape
-CellType first_order(CellType type);   ///< hex8 for hex27
+int dimension(CellType type);         ///< 1 of lines, 2 of triangles and quadrilaterals, else 3
+int node_count(CellType type);        ///< nodes of a cell
+int corner_count(CellType type);      ///< nodes of the first-order cell of that shape
+CellType first_order(CellType type);  ///< hex8 for hex27
 /// Whether it has nodes in the middle of its edges.
 inline bool second_order(CellType type)
 {

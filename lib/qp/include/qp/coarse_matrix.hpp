@@ -22,8 +22,8 @@ struct DowndateBlock {
 };
 
 /// Only the rows of G that touch a constrained unknown feel D. With few of them all others are eliminated once and each
-/// factorization is that of a small dense Schur complement; with many the whole is factorized sparsely. Every rank holds it. The factor
-/// stays with the matrix, no object of its own: the sparse one keeps its analysis of the pattern and its memory.
+/// factorization is that of a small dense Schur complement; with many the whole is factorized sparsely. Every rank holds it. The
+/// factor stays with the matrix, no object of its own: the sparse one keeps its analysis of the pattern and its memory.
 class CoarseMatrix {
  public:
   /// `blocks`: the unknowns of this rank's constraints, which may be downdated as a whole or in part. `equality` outlives it.
