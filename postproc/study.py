@@ -61,12 +61,9 @@ class Study:
         self.formula = None
         if arguments.pressure:
             try:
-                import meshio  # noqa: F401
                 from studies.pressure import Formula
             except ImportError as problem:
-                raise BadInput(
-                    f"--pressure reads contact_*.vtu by meshio and numpy, and {problem.name} is missing: apt-get install python3-meshio"
-                ) from None
+                raise BadInput(f"--pressure integrates by numpy, and {problem.name} is missing: apt-get install python3-numpy") from None
             self.formula = Formula(arguments.pressure)
         self.quantities = ([convergence.L2] if self.formula else []) + (arguments.quantity or self.usual_quantities())
         self.quantities += [path for path in arguments.exact if path not in self.quantities]

@@ -1,58 +1,41 @@
 #!/usr/bin/env python3
-"""Forces on the rollers of the bearing, from the contact surfaces of a run.
+"""Forces on the rollers of the bearing, from the contact nodes of a run.
 
     roller_forces.py OUTPUT_DIRECTORY [--rollers 35] [--load 350e3]
 
 Prints, from the most loaded position upwards, the radial force of the inner and of the outer raceway on each roller, and what the classical theory
-expects: Q(psi) = Q_max (1 - (1 - cos psi) / (2 eps))^(10/9), eps = 1/2 without clearance. The tractions of contact.pvd are integrated over the nodes'
-shares of the facets. Needs numpy and meshio.
+expects: Q(psi) = Q_max (1 - (1 - cos psi) / (2 eps))^(10/9), eps = 1/2 without clearance. The forces on the contact nodes of results.h5 are
+summed. Needs numpy and h5py.
 """
 import argparse
 import math
 import pathlib
 import sys
 
-import meshio
+import h5py
 import numpy as np
-
-
-def shares(points, facets):
-    """Area of each node: a quarter of each facet's."""
-    x = points[facets]
-    area = 0.5 * np.linalg.norm(np.cross(x[:, 2] - x[:, 0], x[:, 3] - x[:, 1]), axis=1)
-    result = np.zeros(len(points))
-    for corner in range(4):
-        np.add.at(result, facets[:, corner], area / 4)
-    return result
-
-
-def surfaces(directory):
-    """Points, facets, number of the contact of each facet, and traction of each point, of all ranks' files."""
-    paths = sorted(directory.glob("contact_*.vtu"))
-    if not paths:
-        sys.exit(f"{directory}: no contact_*.vtu; is it the output directory of a finished run?")
-    for path in paths:
-        with path.open("rb") as file:
-            if b'NumberOfCells="0"' in file.read(1000):  # a rank without contact surfaces, which meshio cannot read
-                continue
-        mesh = meshio.read(path)
-        for block, contact in zip(mesh.cells, mesh.cell_data["contact"]):
-            if block.type == "quad":
-                yield mesh.points, block.data, contact, mesh.point_data["contact_traction"]
 
 
 def forces(directory, contact, rollers):
     """Radial forces (positive: towards the axis) on the rollers, a row of the bearing each, that above z = 0 first."""
+    path = directory / "results.h5"
+    if not path.exists():
+        sys.exit(f"{directory}: no results.h5; is it the output directory of a finished run?")
+    with h5py.File(path) as file:
+        points = file["contact/points"][:]
+        points = points[points[:, 0] == contact]
+        places, force = file["nodes/points"][:][points[:, 1].astype(int)], points[:, 4:7]
+    nearest = np.round(np.arctan2(places[:, 0], -places[:, 1]) * rollers / (2 * math.pi)).astype(int)
+    psi = nearest * 2 * math.pi / rollers
+    radial = -(force[:, 0] * np.sin(psi) - force[:, 1] * np.cos(psi))
     result = np.zeros((2, rollers))
-    for points, facets, numbers, traction in surfaces(directory):
-        mine = facets[numbers == contact]
-        force = shares(points, mine)[:, None] * traction
-        angle = np.arctan2(points[:, 0], -points[:, 1])
-        nearest = np.round(angle * rollers / (2 * math.pi)).astype(int)
-        psi = nearest * 2 * math.pi / rollers
-        radial = -(force[:, 0] * np.sin(psi) - force[:, 1] * np.cos(psi))
-        np.add.at(result, (np.where(points[:, 2] > 0, 0, 1), nearest % rollers), radial)
+    np.add.at(result, (np.where(places[:, 2] > 0, 0, 1), nearest % rollers), radial)
     return result
+
+
+def by_angle(directory, rollers):
+    """Forces of the inner and of the outer raceway, both positive: (rows, rollers) each."""
+    return -forces(directory, 0, rollers), forces(directory, 1, rollers)
 
 
 def main():
@@ -62,8 +45,7 @@ def main():
     parser.add_argument("--load", type=float, default=350e3)
     arguments = parser.parse_args()
 
-    inner = -forces(arguments.directory, 0, arguments.rollers)
-    outer = forces(arguments.directory, 1, arguments.rollers)
+    inner, outer = by_angle(arguments.directory, arguments.rollers)
     rows = 2 if inner[1].any() else 1
     psi = 2 * math.pi / arguments.rollers * np.arange(arguments.rollers)
     largest = inner.max()

@@ -1,40 +1,14 @@
 """What a run of Mortise left behind: summary.json and the .vtu files of solution.pvd and contact.pvd, without a library for VTK."""
 
-import base64
 import json
 import pathlib
 import re
-import zlib
+import sys
 
 import numpy as np
 
-TYPES = {"Float64": np.float64, "Float32": np.float32, "Int64": np.int64, "Int32": np.int32, "UInt8": np.uint8}
-
-
-def unpacked(text):
-    """The bytes of an array: base64 of a head of four-byte numbers (blocks, size of a block, size of the last, sizes of all as they are
-    packed), and of the blocks."""
-    count = int(np.frombuffer(base64.b64decode(text[:8])[:4], "<u4")[0])
-    length = 4 * -(-4 * (3 + count) // 3)
-    sizes = np.frombuffer(base64.b64decode(text[:length])[: 4 * (3 + count)], "<u4")[3:]
-    data, parts, at = base64.b64decode(text[length:]), [], 0
-    for size in sizes:
-        parts.append(zlib.decompress(data[at : at + int(size)]))
-        at += int(size)
-    return b"".join(parts)
-
-
-def read_vtu(path):
-    """{section: {name: array}} of a .vtu file."""
-    result = {}
-    for section, body in re.findall(r"<(PointData|CellData|Points|Cells)>(.*?)</\1>", pathlib.Path(path).read_text(), re.S):
-        arrays = result.setdefault(section, {})
-        for tag, text in re.findall(r"<DataArray([^>]*)>([^<]*)", body):
-            field = dict(re.findall(r'(\w+)="([^"]*)"', tag))
-            values = np.frombuffer(unpacked(text.strip()), TYPES[field["type"]])
-            columns = int(field.get("NumberOfComponents", 1))
-            arrays[field["Name"]] = values.reshape(-1, columns) if columns > 1 else values
-    return result
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "postproc"))
+from studies.vtu import read_vtu  # noqa: E402
 
 
 class Grid:
