@@ -57,6 +57,14 @@ class Column(unittest.TestCase):
         self.assertEqual(len(auto), 3)
         self.assertTrue(all(float(row["change from the tightest of strain_energy"]) < 1e-3 for row in auto))
 
+    def test_pressure_against_a_formula(self):
+        # The weight of the upper block, 1, against 1.25 + x: the integral of (0.25 + x)^2 over that of (1.25 + x)^2.
+        for formula, expected in (("1", 0.0), ("1.25 + x", math.sqrt(0.64583 / 3.14583))):
+            _, rows = self.run_study("--refine", "0", "--tolerances", "1e-9", "--elements", "quad4", "quad9", "--pressure", formula)
+            self.assertEqual(len(rows), 4)
+            for row in rows:
+                self.assertAlmostEqual(float(row["pressure (L2)"]), expected, delta=1e-3)
+
     def test_elements_exact_values_and_a_run_that_fails(self):
         self.output.mkdir()
         (self.output / "study.csv").write_text("of an earlier call")
