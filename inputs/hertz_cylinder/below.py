@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """The stress below a line contact, of finite elements beside boundary elements, and what each costs.
 
-    below.py MORTISE [--picture FILE.png] [--h 0.2] [--table]
+    below.py MORTISE [--picture FILE.png] [--h 0.2] [--table] [--write]
 
-Runs hertz_cylinder.yaml with a sixteenth of its force, a = 0.03 R, and a block of 2 m, for which Hertz's formulas hold. The picture shows the von Mises stress over the largest pressure of Hertz's formula, both methods on the meshes
-of one size, and the depth of the largest one. --table: over mesh sizes the errors of the largest pressure and of the depth of the
-largest von Mises stress on the axis of symmetry, 0.7042 a, with unknowns and CPU seconds.
+Runs hertz_cylinder.yaml with a sixteenth of its force, a = 0.03 R, and a block of 2 m, for which Hertz's formulas hold. The picture shows
+the von Mises stress over the largest pressure of Hertz's formula, both methods on the meshes of one size, and the depth of the largest one.
+--table: over mesh sizes the errors of the largest pressure and of the depth of the largest von Mises stress on the axis of symmetry, 0.7042 a,
+with unknowns and CPU time over that of the first row; --write puts it into README.md.
 """
 import argparse
 import csv
@@ -15,9 +16,14 @@ import os
 import pathlib
 import resource
 import subprocess
+import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "regression"))
+import page_tables  # noqa: E402
+
+HEAD = ["method", "h", "unknowns", "largest pressure", "depth of the largest von Mises stress", "its height", "CPU time, of the first row's"]
 R, FORCE = 50.0, 35e3 / 16  # of the whole cylinder
 A = math.sqrt(4 * FORCE * R * ((1 - 0.3**2) / 210e3 + (1 - 0.3**2) / 70e3) / math.pi)  # [Johnson 1985, 4.43]
 P0 = 2 * FORCE / (math.pi * A)
@@ -69,10 +75,11 @@ def depth_of(rows, depths):
     return top_of(depths, [float(row["von_mises"]) / P0 for row in rows])
 
 
-def table(mortise):
+def table(mortise, write):
     exact = top_of(axis_points(), [on_the_axis(s) for s in axis_points()])
     print(f"formula: {exact[1]:.4f} p0 at {exact[0]:.4f} a\n")
-    print("| method | h | unknowns | largest pressure | depth of the largest von Mises stress | its height | CPU s |\n|---|---|---|---|---|---|---|")
+    print(page_tables.line_of(HEAD))
+    first, found = None, []
     points = [(0, -s * A) for s in axis_points()]
     for name, method, order, sizes in (("boundary elements", "boundary_elements", 1, (0.4, 0.2, 0.1, 0.05)),
                                        ("quad4", "finite_elements", 1, (0.2, 0.1, 0.05, 0.025, 0.0125)),
@@ -81,8 +88,12 @@ def table(mortise):
             rows, summary, seconds = solve(mortise, method, h, points, order)
             depth, height = depth_of(rows, axis_points())
             pressure = summary["contacts"][0]["max_pressure"]
-            print(f"| {name} | {h} | {summary['primal_unknowns']:,} | {100 * (pressure / P0 - 1):+.2f} % | {100 * (depth / exact[0] - 1):+.2f} % | "
-                  f"{100 * (height / exact[1] - 1):+.2f} % | {seconds:.1f} |", flush=True)
+            first = first or seconds
+            errors = (100 * (value - 1) for value in (pressure / P0, depth / exact[0], height / exact[1]))
+            found.append([name, str(h), f"{summary['primal_unknowns']:,}", *(f"{error:+.2f} %" for error in errors), f"{seconds / first:.1f}"])
+            print(page_tables.line_of(found[-1]), flush=True)
+    if write:
+        page_tables.write(HERE / "README.md", "below the contact", HEAD, found, keys=2, known=[tuple(row[:2]) for row in found])
 
 
 def picture(mortise, h, path):
@@ -122,11 +133,12 @@ def main():
     parser.add_argument("--picture", type=pathlib.Path)
     parser.add_argument("--h", type=float, default=0.2)
     parser.add_argument("--table", action="store_true")
+    parser.add_argument("--write", action="store_true")
     arguments = parser.parse_args()
     if arguments.picture:
         picture(arguments.mortise, arguments.h, arguments.picture)
-    if arguments.table:
-        table(arguments.mortise)
+    if arguments.table or arguments.write:
+        table(arguments.mortise, arguments.write)
 
 
 if __name__ == "__main__":
