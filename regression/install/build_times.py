@@ -3,7 +3,9 @@
 
     build_times.py [--program] [--write]
 
-Of the preset release, in a folder of its own: the program alone, then all tests, then the suite as `./mortise test` runs it; with --program the first of these."""
+Of the preset release, in a folder of its own: the program alone, then all tests, then the suite as `./mortise test` runs it; with --program the first of these.
+Each row is written as it comes. What a command that fails has written stays in build/build_times.log; a suite that fails has its row all the same,
+since it runs to its end, and the exit status is 1."""
 
 import argparse
 import json
@@ -20,6 +22,10 @@ ROOT = HERE.parent.parent
 sys.path.insert(0, str(HERE.parent))
 import page_tables  # noqa: E402
 
+LOG = ROOT / "build" / "build_times.log"
+SUITE = "the suite, `ctest -LE study`"
+ROWS = ["the program, `ninja mortise`", "then all tests, `ninja`", SUITE]
+
 
 def environment():
     """What the preset of the suite sets."""
@@ -28,13 +34,14 @@ def environment():
 
 
 def timed(*command):
-    """Seconds on the clock and of the processors. What a command that fails has written is shown."""
+    """Seconds on the clock and of the processors, and the exit status. The end of what a command that fails has written is shown, all of it kept."""
     used = lambda: sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
     clock, processors = time.monotonic(), used()
     done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment())
     if done.returncode:
-        sys.exit(f"{done.stdout}\n{' '.join(command)}: exit {done.returncode}")
-    return time.monotonic() - clock, used() - processors
+        LOG.write_text(done.stdout)
+        print(f"{done.stdout[-5000:]}\n{' '.join(command)}: exit {done.returncode}; all of it in {LOG}", file=sys.stderr)
+    return time.monotonic() - clock, used() - processors, done.returncode
 
 
 def main():
@@ -42,24 +49,28 @@ def main():
     parser.add_argument("--program", action="store_true", help="the program alone")
     parser.add_argument("--write", action="store_true", help="write the table of README.md")
     arguments = parser.parse_args()
-    rows = []
     (ROOT / "build").mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory(dir=ROOT / "build") as build:
 
         def row(what, *command):
-            clock, processors = timed(*command)
-            rows.append([what, f"{clock:.0f}", f"{processors:.0f}"])
-            print(*rows[-1], sep=", ", flush=True)
+            clock, processors, status = timed(*command)
+            if status and what != SUITE:
+                sys.exit(1)
+            cells = [what, f"{clock:.0f}", f"{processors:.0f}"]
+            print(*cells, sep=", ", flush=True)
+            if arguments.write:
+                page_tables.write(HERE / "README.md", "build", [f"on {os.cpu_count()} processors", "seconds", "CPU seconds"], [cells],
+                                  known=[(name,) for name in ROWS])
+            return status
 
-        timed("cmake", "--preset", "release", "-B", build)
-        row("the program, `ninja mortise`", "ninja", "-C", build, "mortise")
+        if timed("cmake", "--preset", "release", "-B", build)[2]:
+            return 1
+        status = row(ROWS[0], "ninja", "-C", build, "mortise")
         if not arguments.program:
-            row("then all tests, `ninja`", "ninja", "-C", build)
-            row("the suite, `ctest -LE study`", "ctest", "--test-dir", build, "-LE", "study", "-j", str(os.cpu_count()),
-                "--output-on-failure")
-    if arguments.write:
-        page_tables.write(HERE / "README.md", "build", [f"on {os.cpu_count()} processors", "seconds", "CPU seconds"], rows)
+            row(ROWS[1], "ninja", "-C", build)
+            status = row(SUITE, "ctest", "--test-dir", build, "-LE", "study", "-j", str(os.cpu_count()), "--output-on-failure")
+    return status
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())
