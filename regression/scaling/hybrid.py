@@ -6,7 +6,7 @@
 The beams of inputs/cantilever_3d, 2n x n x n subdomains each of 2^3 cells, for each n of --edges; --clusters are the values of
 decomposition.subdomains_per_cluster, 1 for TFETI. All subdomains are copies of one, so that what is seen is the dual space and the coarse problem.
 Seconds are CPU seconds of all ranks; of them `joints` factorizes clusters (and the one subdomain), `solution` holds all from G on; both are
-the clock's, of the slowest rank. --write puts kernels, products, CPU seconds and memory into README.md.
+the clock's, of the slowest rank. --write puts kernels, products, CPU seconds and memory into docs/design/clusters.md.
 Exit status 1 if, at the same n, the strain energies differ by more than 1e-5.
 """
 import argparse
@@ -60,7 +60,7 @@ def main():
             if arguments.write and size in COLUMN:
                 row = [f"{summary['subdomains']:,}", f"{summary['primal_unknowns']:,}"] + [None] * 8
                 row[COLUMN[size]:COLUMN[size] + 4] = [f"{figures[2]:,}", str(figures[5]), *figures[8:]]
-                page_tables.write(PAGE, "clusters", HEAD, [row])
+                page_tables.write(ROOT / "docs/design/clusters.md", "TFETI and clusters", HEAD, [row])
         if max(energies) - min(energies) > TOLERANCE * max(energies):
             sys.exit(f"n = {edge}: strain energies {energies}")
 
