@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Products with F on elastic_box.yaml, beside the iterations of ESPRESO in ../README.md.
+"""Products with F on elastic_box.yaml, beside the iterations of ESPRESO in ../espresso_permon.md.
 
     products.py MORTISE [--write]
 """
@@ -23,13 +23,13 @@ def products(mortise, preconditioner):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mortise")
-    parser.add_argument("--write", action="store_true", help="the last column of the table in ../README.md")
+    parser.add_argument("--write", action="store_true", help="the last column of the table in ../espresso_permon.md")
     arguments = parser.parse_args()
     for preconditioner in ROWS:
         row = [preconditioner, None, products(arguments.mortise, preconditioner)]
         print(f"{row[0]}: {row[2]}", flush=True)
         if arguments.write:
-            page_tables.write(HERE.parent / "README.md", "elastic box", HEAD, [row])
+            page_tables.write(HERE.parent / "espresso_permon.md", "elastic box", HEAD, [row])
 
 
 if __name__ == "__main__":

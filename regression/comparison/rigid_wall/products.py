@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Products with F on rigid_wall.yaml, beside those of other programs in ../README.md.
+"""Products with F on rigid_wall.yaml, beside those of other programs in ../espresso_permon.md.
 
     products.py MORTISE [--write]
 """
@@ -24,13 +24,13 @@ def products(mortise, subdomains, cells):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mortise")
-    parser.add_argument("--write", action="store_true", help="the last column of the table in ../README.md")
+    parser.add_argument("--write", action="store_true", help="the last column of the table in ../espresso_permon.md")
     arguments = parser.parse_args()
     for subdomains, cells in ROWS:
         row = [f"{subdomains**3}, {cells}", None, None, products(arguments.mortise, subdomains, cells)]
         print(f"{row[0]}: {row[3]}", flush=True)
         if arguments.write:
-            page_tables.write(HERE.parent / "README.md", "rigid wall", HEAD, [row])
+            page_tables.write(HERE.parent / "espresso_permon.md", "rigid wall", HEAD, [row])
 
 
 if __name__ == "__main__":
