@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 """Imports input files of Abaqus or CalculiX, solves them with Mortise and with CalculiX, and prints how far the displacements agree.
 
-    abaqus_decks.py MORTISE FILE.inp ... [--points 400] [--timeout 120] [--quiet]
+    abaqus_decks.py MORTISE FILE.inp ... [--points 400] [--timeout 120] [--quiet] [--write]
 
 CalculiX solves a file without NLGEOM, so that both solve the linear problem, and once more with 10 times the penalty of its contacts and full
 integration of cells of second order. Displacements are compared at nodes at the end of the last static step: the largest difference over the
 largest displacement; FILE.dat.ref as well where it is there (calculix-ccx-test has them packed). The last column is the difference of the
-largest contact force, with the stiffer penalty. What the import leaves out is printed below the table. Needs calculix-ccx, python3-yaml,
-python3-numpy.
+largest contact force, with the stiffer penalty. What the import leaves out is printed below the table; --write puts the rows of files that both
+solve into abaqus_decks.md. Needs calculix-ccx, python3-yaml, python3-numpy.
 """
 
 import argparse
@@ -22,8 +22,12 @@ import tempfile
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "inputs" / "import"))
+PAGE = ROOT / "regression" / "comparison" / "abaqus_decks.md"
+sys.path[:0] = [str(ROOT / "inputs" / "import"), str(ROOT / "regression")]
 import import_deck  # noqa: E402
+import page_tables  # noqa: E402
+
+HEAD = ["deck", "nodes", "left out", "largest displacement", "stored", "apart", "penalty x 10, full integration", "force of contact"]
 
 
 def stiffer(text, factor):
@@ -188,7 +192,7 @@ def compare(mortise, path, most, timeout, directory):
     steps = STEP.findall(path.read_text(errors="replace"))
     stored = pathlib.Path(f"{path.with_suffix('')}.dat.ref")
     if stored.exists() and all(map(is_static, steps)) and (values := last_displacements(stored, "")):
-        row["stored"] = difference(row, values, result, chosen, points, found)
+        row["stored"] = difference(row, values, result, chosen, points, found).replace("no common node", "")
     for key, factor in (("difference", 1), ("stiffer", 10)):
         values, row["force"] = solve(path, factor, timeout, directory, result)
         row[key] = values if isinstance(values, str) else difference(row, values, result, chosen, points, found)
@@ -205,7 +209,7 @@ def force_difference(theirs, result, summary):
         return ""
     wedge = 180 if result.bodies.dimension == "axisymmetric" else 1  # CalculiX turns two degrees
     force, ours = (f * s for f, s in zip(max(common.values()), (wedge, 1)))
-    return f"{100 * abs(ours - force) / force:.2g} % of {force:.4g}" if force > 0 else ""
+    return f"{percent(abs(ours - force) / force)} of {f'{force:.4g}' if force < 1e4 else f'{force:,.0f}'}" if force > 0 else ""
 
 
 def solve(path, factor, timeout, directory, result):
@@ -236,7 +240,17 @@ def difference(row, values, result, chosen, points, found):
     a, b = (np.array(x) for x in zip(*pairs))
     largest = np.abs(a).max()
     row["largest"] = row["largest"] or f"{largest:.4g}"
-    return f"{100 * np.abs(a - b).max() / largest:.2g} %" if largest > 0 else "0"
+    return percent(np.abs(a - b).max() / largest) if largest > 0 else "0"
+
+
+def percent(part):
+    return f"{100 * part:.3g} %" if part >= 1 else f"{100 * part:.2g} %" if part >= 1e-5 else "< 0.001 %"
+
+
+def page_row(row):
+    """In the table of the page."""
+    left_out = f"{row['left out']}{', NLGEOM' if row['of them NLGEOM'] else ''}"
+    return [row["file"].removesuffix(".inp"), row["nodes"], left_out, *(row[k] for k in ("largest", "stored", "difference", "stiffer", "force"))]
 
 
 def main():
@@ -246,6 +260,7 @@ def main():
     parser.add_argument("--points", type=int, default=400)
     parser.add_argument("--timeout", type=float, default=120)
     parser.add_argument("--quiet", action="store_true", help="the table alone")
+    parser.add_argument("--write", action="store_true", help="put the rows into abaqus_decks.md")
     given = parser.parse_args()
     print(
         "| file | nodes | left out | NLGEOM | exit status | largest displacement | stored result | difference | penalty x 10, full integration | contact force |\n|---|---|---|---|---|---|---|---|---|---|"
@@ -255,6 +270,8 @@ def main():
         with tempfile.TemporaryDirectory(prefix="mortise_decks_") as name:
             row = compare(str(given.mortise.resolve()), path, given.points, given.timeout, pathlib.Path(name))
         every.append(row)
+        if given.write and row["status"] == "0" and row["stiffer"].endswith("%"):
+            page_tables.write(PAGE, "abaqus decks", HEAD, [page_row(row)])
         print(
             "| "
             + " | ".join(
