@@ -10,7 +10,12 @@ In a page a table of figures stands between two lines, the first of which names 
     <!-- end of table -->
 
 Its first cells are the keys of its rows. What a script did not run again stays as it was: rows of other keys, and cells that are None.
+
+A table of what is chosen or extrapolated and not measured, as limits, defaults or sizes of models, stands below the line
+
+    <!-- constants -->
 """
+import itertools
 import pathlib
 import re
 import sys
@@ -18,6 +23,10 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 BEGIN = re.compile(r"<!-- table: (?P<name>[^,]+), by (?P<script>\S+) -->")
 END = "<!-- end of table -->"
+CONSTANTS = "<!-- constants -->"
+RULE = re.compile(r"\|[-|: ]+\|")  # below the heading of a table
+NOT_A_FIGURE = re.compile(r"`[^`]*`|\[[^]]*\]\([^)]*\)")  # code and links
+FIGURE = re.compile(r"(some |below |above |at most |more than |about )?[-+<>~]? ?\d")
 
 
 def cells_of(line):
@@ -82,23 +91,46 @@ def known_rows():
     yield study.PAGE, "sides", sides.known_keys()
 
 
+def is_of_figures(rows):
+    """Whether several cells begin with a number."""
+    return sum(FIGURE.match(NOT_A_FIGURE.sub("", cell).strip()) is not None for row in rows for cell in row) > 1
+
+
+def wants_script(lines, rule, in_regression):
+    """Of a table without a mark, whose rule stands at the number of a line: below regression/ all but lists of files and pictures, elsewhere
+    what has figures."""
+    if rule > 1 and lines[rule - 2] == CONSTANTS:
+        return False
+    rows = [cells_of(line) for line in itertools.takewhile(lambda line: line.startswith("|"), lines[rule + 1:])]
+    return not re.match(r"\| *(`?file|!\[|header)", lines[rule - 1]) if in_regression else is_of_figures(rows)
+
+
+def pages():
+    """All pages but what a script writes as a whole (docs/make_reference.py) and results."""
+    root = HERE.parent
+    found = [page for folder in ("app", "docs", "inputs", "lib", "postproc", "regression") for page in (root / folder).rglob("*.md")]
+    return [page for page in sorted([*root.glob("*.md"), *found]) if page.name != "reference.md" and ".out" not in "".join(page.parts)]
+
+
 def check():
-    """Complaints: a table of figures below regression/ without a script that writes it, and, of tables whose rows are known, a case without a
-    row or a row without a case. What speed_against_error/run makes are whole folders of results, of which its page has a choice."""
-    for page in sorted(set(HERE.rglob("*.md")) - set((HERE / "speed_against_error").rglob("*.md"))):
-        lines = page.read_text(encoding="utf-8").splitlines()
+    """Complaints: a table of figures without a script that writes it, and, of tables whose rows are known, a case without a row or a row without
+    a case."""
+    for page in pages():
+        lines, name = page.read_text(encoding="utf-8").splitlines(), page.relative_to(HERE.parent)
         inside = None
         for number, line in enumerate(lines, 1):
             if mark := BEGIN.fullmatch(line):
                 if inside:
-                    yield f"{page.relative_to(HERE)}:{number}: the table {inside} has no end"
+                    yield f"{name}:{number}: the table {inside} has no end"
                 inside, script = mark["name"], page.parent / mark["script"]
                 if not script.exists() or "page_tables" not in script.read_text(encoding="utf-8"):
-                    yield f"{page.relative_to(HERE)}:{number}: {mark['script']} writes no tables"
+                    yield f"{name}:{number}: {mark['script']} writes no tables"
             elif line == END:
                 inside = None
-            elif inside is None and re.fullmatch(r"\|[-|: ]+\|", line) and not re.match(r"\| *(`?file|!\[|header)", lines[number - 2]):
-                yield f"{page.relative_to(HERE)}:{number}: this table has no script that writes it"
+            elif inside is None and RULE.fullmatch(line) and wants_script(lines, number - 1, HERE in page.parents):
+                yield f"{name}:{number}: this table has no script that writes it"
+        if inside:
+            yield f"{name}: the table {inside} has no end"
     for page, name, keys in known_rows():
         found = [tuple(row[:len(keys[0])]) for row in read(page, name)[1]]
         for key in keys:

@@ -60,6 +60,16 @@ class Tables(unittest.TestCase):
         with self.assertRaisesRegex(SystemExit, "no table two"):
             page_tables.write(self.page, "two", HEAD, [])
 
+    def test_a_table_with_figures_wants_a_script(self):
+        table = ["| deck | products |", "|---|---|", "| one | 10 |", "| two | no end |", "| three | some 20 |"]
+        self.assertTrue(page_tables.wants_script(table, 1, in_regression=False))
+        self.assertFalse(page_tables.wants_script(table[:-1], 1, in_regression=False))  # one cell
+        self.assertFalse(page_tables.wants_script([page_tables.CONSTANTS, *table], 2, in_regression=False))
+        names = ["| keyword | becomes |", "|---|---|", "| `*CLOAD` | a force, to 0.1 % |", "| `3` | [4](four.md) |"]
+        self.assertFalse(page_tables.wants_script(names, 1, in_regression=False))
+        self.assertTrue(page_tables.wants_script(names, 1, in_regression=True))
+        self.assertFalse(page_tables.wants_script(["| file | holds |", *names[1:]], 1, in_regression=True))
+
     def test_the_pages_have_a_script_for_each_table_and_a_row_for_each_case(self):
         self.assertEqual(list(page_tables.check()), [])
 
