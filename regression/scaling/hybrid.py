@@ -13,7 +13,7 @@ import argparse
 import resource
 import sys
 
-from scaling import PAGE, ROOT, page_tables, run
+from scaling import ROOT, page_tables, run
 
 HEAD = ["subdomains", "primal unknowns", "TFETI: kernels", "products", "CPU s", "GB", "clusters of 64: kernels", "products", "CPU s", "GB"]
 COLUMN = {1: 2, 64: 6}  # where the figures of a size of clusters begin
