@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Solves the rows of the two scalability tables of Dostal et al. (DD20) and prints them beside the paper's.
 
-    tables.py MORTISE [--dimension 2|3] [--method finite_elements|boundary_elements] [--rows N ...] [--ranks R] [--mpiexec MPIEXEC] [--scratch DIR] [--set KEY=VALUE ...] [--write]
+    tables.py MORTISE [--dimension 2|3] [--method finite_elements|boundary_elements] [--rows N ...] [--ranks R] [--mpiexec MPIEXEC] [--scratch DIR] [--set KEY=VALUE ...] [--write [--counts]]
 
 Two beams 2:1(:1), each cut into 2n x n (x n) squares or cubes; the decks are those of inputs/cantilever_2d and cantilever_3d with other
 numbers. "product/limit" is the time of a product with F over the time its floating point operations take at the rate of a
 matrix-matrix product of the same machine, measured at the start. With boundary elements (the paper's TBETI, in space) a subdomain is a dense
 matrix of its surface. The results of a row are deleted once it is judged, unless
---keep is given. --write puts the rows into README.md.
+--keep is given. --write puts the rows into README.md; with --counts seconds stay as they are there, for machines that are busy.
 """
 import argparse
 import json
@@ -81,12 +81,13 @@ def solve(arguments, dimension, n, directory):
     return json.loads((directory / "summary.json").read_text()), wall
 
 
-def page_row(n, directory, summary, paper, wall, ratio):
-    """The row in the table of the page."""
-    seconds = summary["time"]
-    preconditioner = re.search(r"preconditioner: (\w+)", (directory / "deck.yaml").read_text())[1]
-    return [f"n = {n}", preconditioner, f"{summary['primal_unknowns']:,}", paper, f"{summary['outer_iterations']} / {summary['hessian_multiplications']}",
-            f"{wall:.3g} ({seconds['solve']:.2g}, {seconds['multiplication']:.2g})", f"{ratio:.1f}", f"{summary['peak_memory_bytes'] / 1e9:.2g}"]
+def page_row(n, directory, summary, paper, wall, ratio, counts):
+    """The row in the table of the page; of counts alone without seconds."""
+    seconds, deck = summary["time"], (directory / "deck.yaml").read_text()
+    kind = "SMALSE" if re.search(r"algorithm: smalse", deck) else re.search(r"preconditioner: (\w+)", deck)[1]
+    timed = [None, None] if counts else [f"{wall:.3g} ({seconds['solve']:.2g}, {seconds['multiplication']:.2g})", f"{ratio:.1f}"]
+    return [f"n = {n}", kind, f"{summary['primal_unknowns']:,}", paper, f"{summary['outer_iterations']} / {summary['hessian_multiplications']}",
+            *timed, f"{summary['peak_memory_bytes'] / 1e9:.2g}"]
 
 
 def main():
@@ -101,6 +102,7 @@ def main():
     parser.add_argument("--keep", action="store_true")
     parser.add_argument("--set", action="append", default=[])
     parser.add_argument("--write", action="store_true")
+    parser.add_argument("--counts", action="store_true", help="with --write: leave the seconds of the page as they are")
     arguments = parser.parse_args()
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     rate = dgemm_rate() * min(arguments.ranks, os.cpu_count() or 1)
@@ -130,7 +132,8 @@ def main():
                   f"{summary['peak_memory_bytes'] / 1e9:.2f}", flush=True)
             if arguments.write:
                 page_tables.write(PAGE, "boundary elements" if boundary else f"{dimension}D", HEAD,
-                                  [page_row(n, directory, summary, paper, wall, seconds["multiplication"] / products / limit)], keys=2)
+                                  [page_row(n, directory, summary, paper, wall, seconds["multiplication"] / products / limit,
+                                           arguments.counts)], keys=2)
             if arguments.keep:
                 print(f"  results in {directory}")
             else:
