@@ -30,14 +30,14 @@ CELLS = {2: 50, 3: 10}  # along the edge of a subdomain
 # n: subdomains, primal, dual, kernel; outer iterations / products / seconds of the paper on 48 cores.
 PAPER = {
     2: {22: (1936, 10071072, 384473, 5808, "8 / 119 / 839"),
-        32: (4096, 21307392, 817793, 12288, "8 / 134 / 1665"),
-        44: (7744, 40284288, 1551089, 23232, "8 / 180 / 7825")},
+        32: (4096, 21307392, 817793, 12288, "8 / 134 / 1,665"),
+        44: (7744, 40284288, 1551089, 23232, "8 / 180 / 7,825")},
     3: {3: (108, 431244, 88601, 648, "3 / 78 / 60"),
         5: (500, 1996500, 444927, 3000, "4 / 97 / 374"),
-        7: (1372, 5478396, 1261493, 8232, "4 / 93 / 1663"),
-        9: (2916, 11643588, 2728955, 17496, "4 / 119 / 7745")}}
+        7: (1372, 5478396, 1261493, 8232, "4 / 93 / 1,663"),
+        9: (2916, 11643588, 2728955, 17496, "4 / 119 / 7,745")}}
 # The same by boundary elements: outer iterations / products / seconds. The paper's primal unknowns are these, but for 3, 2 and 4 of them.
-PAPER_BOUNDARY = {3: "7 / 160 / 46", 5: "8 / 161 / 301", 7: "9 / 160 / 2211", 9: "9 / 260 / 7949"}
+PAPER_BOUNDARY = {3: "7 / 160 / 46", 5: "8 / 161 / 301", 7: "9 / 160 / 2,211", 9: "9 / 260 / 7,949"}
 SURFACE_UNKNOWNS = 3 * (11**3 - 9**3)  # of a cube of 10 x 10 x 10 cells
 # Entries of the factor of one subdomain, from its analysis by CHOLMOD; two solves cost four operations an entry.
 FACTOR_ENTRIES = {2: 0.31e6, 3: 0.9e6}
