@@ -38,7 +38,7 @@ DualSolver::DualSolver(const feti::DualProblem& problem, std::vector<friction::L
 // Of a residual, or of the error that is good enough, whose contacts must have converged as well.
 qp::Goal DualSolver::goal(const qp::Goal& accuracy) const
 {
-  if (tolerance_) return {.residual = *tolerance_, .energy_norm = accuracy.energy_norm};
+  if (tolerance_) return {.residual = *tolerance_, .incompatibility = accuracy.incompatibility, .energy_norm = accuracy.energy_norm};
   qp::Goal goal = accuracy;
   goal.contact_converged = [this](const Vector& x, const Vector& argument, const Vector& off) {
     return feti::contact_converged(problem_, x, argument, off);

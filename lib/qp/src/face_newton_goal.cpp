@@ -107,9 +107,8 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
   }
   if (!solved && goal.exact > 0 && std::isfinite(result.error))
     solved = result.error <= goal.exact * goal.energy_norm(z, result.nu);
-  if (!goal.allowed_error || !solved) return solved;
-  if (!contact()) return false;
-  if (radii_at_rest(run) && is_compatible(run)) return true;
+  if (!solved || (goal.allowed_error && !contact())) return false;
+  if ((!goal.allowed_error || radii_at_rest(run)) && is_compatible(run)) return true;
   run.doubtful = true;
   return false;
 }

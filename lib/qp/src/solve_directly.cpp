@@ -202,7 +202,7 @@ class DirectSolver : public Solver {
         least = size;
         best = found;
       }
-      if (!nearer || step == most_corrections || (size <= enough && is_nothing(felt, found, goal))) break;
+      if (!nearer || step == most_corrections || (size <= enough && is_nothing(felt, found, goal) && fits_together(found, goal))) break;
       linear.update(-1, defect, 1);
       right_side += lacking;
       auto next = matrices_.go_on(problem.right, linear, right_side, problem.set, found);
@@ -219,6 +219,12 @@ class DirectSolver : public Solver {
     Vector error(defect.getMap());
     matrices_.inverse->apply(defect, error);
     return std::sqrt(std::max(defect.dot(error), 0.0)) <= of_energy * goal.energy_norm(found.x, found.nu);
+  }
+
+  // Energy feels little of what is soft, as plates are along themselves.
+  static bool fits_together(const ExplicitProgramme::Result& found, const Goal& goal)
+  {
+    return !goal.incompatibility || goal.incompatibility(found.x, found.nu) <= Goal::compatible;
   }
 
   Programme programme_;

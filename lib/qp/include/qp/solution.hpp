@@ -29,8 +29,8 @@ struct Goal {
   /// would. `argument` is that of the natural projection: how far it lies from the border of a constraint's half-line or disc
   /// tells how firmly its state is decided. Collective.
   std::function<bool(const Vector& x, const Vector& argument, const Vector& change)> contact_converged = {};
-  /// With an allowed error, how far the primal solution at x, nu is from fulfilling its constraints, over its own size: energy
-  /// feels little of what is soft. Asked for last. Collective.
+  /// How far the primal solution at x, nu is from fulfilling its constraints, over its own size: energy and residuals feel little
+  /// of what is soft. Asked for last. Collective.
   std::function<double(const Vector& x, const Eigen::VectorXd& nu)> incompatibility = {};
   /// The size of what is solved for, in the norm of the error (that of A, as Solution::error). Asked for where a residual is
   /// small, since a small residual alone says little where A is badly conditioned; if absent, it is believed. Collective.
