@@ -1,12 +1,16 @@
 #include "analysis/rows.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
+#include <tuple>
 
 #include "constraint/coupling.hpp"
 #include "constraint/normals.hpp"
 #include "constraint/pretension.hpp"
 #include "constraint/right_hand_sides.hpp"
 #include "constraint/supports.hpp"
+#include "contact/cyclic.hpp"
 #include "feti/row_distribution.hpp"
 #include "model/curved_faces.hpp"
 #include "same_nodes.hpp"
@@ -15,11 +19,58 @@ namespace mortise::analysis {
 
 namespace {
 
+// Of each contact whether nodes of it are on a cut of a sector, of which the axis; the same on every rank. Collective.
+std::vector<std::optional<Point>> axes_of_sectors(const Rows& rows, const Communicator& comm)
+{
+  struct AtNode {
+    Global node;
+    int contact;
+    bool of_cut;
+  };
+  std::vector<std::vector<AtNode>> send(static_cast<std::size_t>(comm.size()));
+  const auto tell = [&](Global node, std::size_t contact, bool of_cut) {
+    send[static_cast<std::size_t>(node) % static_cast<std::size_t>(comm.size())].push_back(
+        {node, static_cast<int>(contact), of_cut});
+  };
+  for (std::size_t c = 0; c < rows.pairs.size(); ++c) {
+    if (!rows.pairs[c].options.cyclic) continue;
+    for (const Global node : rows.pairs[c].secondary.node_id) tell(node, c, true);
+    for (const Global node : rows.pairs[c].primary->node_id) tell(node, c, true);
+  }
+  for (const auto& node : rows.constraints.contacts.nodes)
+    if (rows.pairs[static_cast<std::size_t>(node.contact)].options.preload)
+      tell(node.node, static_cast<std::size_t>(node.contact), false);
+  std::vector<AtNode> all;
+  for (const auto& part : comm.exchange(send)) all.insert(all.end(), part.begin(), part.end());
+  std::ranges::sort(all, {}, [](const AtNode& at) { return std::tuple(at.node, !at.of_cut, at.contact); });
+  std::vector<long long> cut_of(rows.pairs.size(), -1);
+  for (std::size_t i = 0, cut = 0; i < all.size(); ++i) {
+    if (all[i].of_cut) cut = i;
+    if (!all[i].of_cut && all[cut].of_cut && all[cut].node == all[i].node)
+      cut_of[static_cast<std::size_t>(all[i].contact)] = all[cut].contact;
+  }
+  for (auto& cut : cut_of) cut = comm.max(cut);
+  std::vector<std::optional<Point>> result(rows.pairs.size());
+  for (std::size_t c = 0; c < result.size(); ++c)
+    if (cut_of[c] >= 0) {
+      const auto& cut = rows.pairs[static_cast<std::size_t>(cut_of[c])].options;
+      result[c] = Eigen::AngleAxisd(contact::rotation_of(cut)->rotation).axis();
+    }
+  return result;
+}
+
 void find_pretension_sections(const model::Model& model, const std::vector<double>& shortenings, const Communicator& comm,
                               Rows& rows)
 {
-  rows.constraints.pretension_sections = constraint::find_pretension_sections(
-      rows.constraints.contacts, model::preloads(model.contacts(), rows.acts, shortenings), model.deck().axisymmetric(), comm);
+  const auto preloads = model::preloads(model.contacts(), rows.acts, shortenings);
+  if (preloads.empty()) return;
+  const auto axes = axes_of_sectors(rows, comm);
+  const auto axis_of = [&](const constraint::Preload& preload) -> std::optional<Point> {
+    if (model.deck().axisymmetric()) return Point(Point::UnitY());
+    return axes[static_cast<std::size_t>(preload.contact)];
+  };
+  rows.constraints.pretension_sections =
+      constraint::find_pretension_sections(rows.constraints.contacts, preloads, model.deck().dimension(), axis_of, comm);
 }
 
 // What supports and rigid couplings prescribe, but for unknown motions.

@@ -148,7 +148,8 @@ void describe(deck::Description<PreloadOptions>& d)
 {
   d.help("Draws the two sides of a bonded contact, a cut through the shank of a bolt, together along the cut's mean normal.");
   d.key("force", &PreloadOptions::force,
-        "Tension of the bolt; how far that shortens it is found (plane models: a thickness; axisymmetric: of the whole turn).")
+        "Tension of the bolt, along the mean normal of its cut; how far that shortens it is found (plane models: a thickness; "
+        "axisymmetric: of the whole turn).")
       .positive();
   d.key("shortening", &PreloadOptions::shortening, "How far the two sides are drawn together; the force is found.");
   d.rule(deck::one_given({"force", "shortening"}));

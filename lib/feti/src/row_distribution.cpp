@@ -55,10 +55,10 @@ Point point(const Vector3& v)
 // A contact node on its way.
 struct SentNode {
   int contact, tangent_count;
-  bool bonded;
+  bool bonded, in_surface;
   Global node;
   double area, weight, gap, cover, prescribed_share;
-  Vector3 normal, at;
+  Vector3 normal, at, across;
   std::array<Vector3, 2> tangents;
   std::size_t parts, images;
 };
@@ -93,6 +93,8 @@ SentNode pack(const constraint::ContactNode& from, bool bonded)
   to.gap = from.gap;
   to.cover = from.cover;
   to.prescribed_share = from.prescribed_share;
+  to.in_surface = from.in_surface;
+  to.across = array(from.across);
   to.normal = array(from.normal);
   to.at = array(from.at);
   std::transform(from.tangents.begin(), from.tangents.end(), to.tangents.begin(), array);
@@ -119,6 +121,8 @@ constraint::ContactNode unpack(const SentNode& from, std::size_t row)
   constraint::ContactNode to{from.contact, from.node,   from.area, point(from.normal), {},
                              row,          from.weight, from.gap,  point(from.at),     from.cover};
   to.prescribed_share = from.prescribed_share;
+  to.in_surface = from.in_surface;
+  to.across = point(from.across);
   for (int t = 0; t < from.tangent_count; ++t) to.tangents.push_back(point(from.tangents[static_cast<std::size_t>(t)]));
   return to;
 }

@@ -53,7 +53,7 @@ struct PressedStack : Stack {
     join("upper.zmin", "lower.zmax", variant.preloaded());
     if (variant.preloaded())
       constraints.pretension_sections = constraint::find_pretension_sections(
-          constraints.contacts, std::vector{constraint::Preload{0, "cut", variant.force, variant.shortening.value_or(0)}}, false,
+          constraints.contacts, std::vector{constraint::Preload{0, "cut", variant.force, variant.shortening.value_or(0)}}, 3, {},
           comm);
     constraints.prescribed = distribute_rows(constraints.prescribed, decomposition, *directory, comm);
     constraints.skew_supports = distribute_rows(constraints.skew_supports, decomposition, *directory, comm);

@@ -23,7 +23,7 @@ struct Column : Blocks {
     dirichlet_rows(supports);
     join("upper.zmin", "lower.zmax", true);
     constraints.pretension_sections =
-        constraint::find_pretension_sections(constraints.contacts, std::vector{preload}, false, comm);
+        constraint::find_pretension_sections(constraints.contacts, std::vector{preload}, 3, {}, comm);
   }
 };
 

@@ -114,6 +114,10 @@ struct ContactNode {
   std::vector<Image> images = {};  ///< of a contact that goes on across a bond: the nodes whose rows this one is as well
   /// Part of the row at places that supports hold on both sides: what overlaps there nothing can close.
   double prescribed_share = 0;
+  /// Of a bond where supports of both sides hold its surface's normal, but not all else: `normal` lies in the surface, and what
+  /// acts along it is no pressure.
+  bool in_surface = false;
+  Point across = Point::Zero();  ///< of a bond: the unit normal of its surface, whatever supports leave of that
 };
 
 /// Bound of its normal row before any support moves, a length: the gap, or what of an overlap can be closed.
@@ -139,6 +143,7 @@ struct NodeWithoutRows {
   int contact;
   Global node;
   std::array<double, 3> normal;
+  Global opposite = -1;  ///< of a bond on faces whose nodes lie opposite nodes: that one
 };
 
 /// Contact rows. A frictionless contact emits normal rows only. A row states the jump at the node in length units, with the

@@ -15,11 +15,13 @@ namespace mortise::contact {
 struct BondDirections {
   Point normal;
   Few<Point, 2> tangents, of_primary;
+  bool in_surface = false;  ///< supports of both sides hold the surface's normal: `normal` is orthogonal to it
 };
 
-/// Of the node with these terms; none where supports hold nothing of it, or nearly all of its normal. `both_sides`: the primary
-/// side moves, as obstacles do not.
+/// Of the node with these terms; none where supports hold nothing of it, where the primary side moves along all that they hold,
+/// or where nothing moves. `least`: freedom of the primary side that makes a row, as RowWriter::freedom() has it; none if that
+/// does not move, as obstacles. Of a pair of nodes any freedom does; others are means over nodes that supports may not hold.
 std::optional<BondDirections> bond_directions(const RowWriter& writer, std::span<const Term> terms, const Point& normal,
-                                              bool both_sides, int dimension);
+                                              std::optional<double> least, int dimension);
 
 }  // namespace mortise::contact

@@ -27,6 +27,7 @@ class ContactRows {
               const Communicator& comm)
       : s_(*contact.sides),
         between_(contact.between),
+        matches_(contact.matches),
         one_surface_(asks_geometry(s_.options)
                          ? OneSurface(s_.secondary, s_.nodes, s_.primary, curved, rotation_of(s_.options), comm)
                          : OneSurface()),
@@ -55,7 +56,7 @@ class ContactRows {
     if (s_.discretization->others_take_over())
       for (std::size_t p = 0; p < s_.nodes.all.size(); ++p)
         if (const auto& n = s_.nodes.all[p].normal; own(p) && chosen_.shared[p])
-          contacts.without_rows.push_back({s_.index, s_.node_of(p), {n[0], n[1], n[2]}});
+          contacts.without_rows.push_back({s_.index, s_.node_of(p), {n[0], n[1], n[2]}, node_opposite(p)});
     s_.discretization->make_functions(chosen_.kept);
     s_.faces.sort_by_nodes();
     for (std::size_t p = 0; p < s_.faces.places(); ++p)
@@ -129,8 +130,31 @@ class ContactRows {
   std::vector<char> primary_prescribed()
   {
     if (options().obstacle) return std::vector<char>(s_.nodes.all.size(), bonded() ? 1 : 0);
-    return opposite_supports_.prescribed_along_normals(
-        s_.faces, bonded() ? &OppositeSupports::prescribe : &OppositeSupports::prescribe_all);
+    if (!bonded())
+      return opposite_supports_.prescribed(s_.faces, [&](std::size_t p, const Opposite& opposite) {
+        return opposite_supports_.prescribe_all(opposite, s_.nodes.all[p].normal);
+      });
+    const Few<Point, 3> axes{Point::UnitX(), Point::UnitY(), Point::UnitZ()};
+    return opposite_supports_.prescribed(s_.faces, [&](std::size_t p, const Opposite& opposite) {
+      constexpr double alike = 0.1;
+      const Eigen::Matrix3d free = s_.supports.free_part(s_.node_of(p), s_.dimension);
+      // A pair of nodes stays one along what one of them moves alone.
+      if (matches_[p]) return (free - opposite_supports_.free_part(opposite)).norm() < alike;
+      const auto directions = directions_of_most(Eigen::Matrix3d::Identity() - free, axes, 0.5);
+      return opposite_supports_.prescribe_each(opposite, directions);
+    });
+  }
+
+  // The primary side's node opposite one of a bond on faces whose nodes lie opposite nodes; else -1.
+  Global node_opposite(std::size_t p)
+  {
+    if (matches_.empty() || !matches_[p] || options().obstacle) return -1;
+    const Opposite& opposite = s_.rays.meet(p);
+    if (!std::isfinite(opposite.gap)) return -1;
+    const auto corners = s_.primary.facets[opposite.facet];
+    Eigen::Index corner = 0;
+    opposite.hit.shape.head(static_cast<Eigen::Index>(corners.size())).maxCoeff(&corner);
+    return s_.primary.node_id[static_cast<std::size_t>(corners[static_cast<std::size_t>(corner)])];
   }
 
   void note_conflict_where_prescribed(std::size_t p)
@@ -175,9 +199,8 @@ class ContactRows {
     const auto [at, own_normal] = points_.at(p);
     const Point across = bonded() ? node_here.normal : s_.rays.direction(s_.faces.surface_node(p), at, own_normal);
     if (bonded() && !options().preload) conflicts_.note_tear(terms_, d, across);
-    const bool prescribed = !writer_.moves(terms_, d, across);  // on both sides
-    const auto bond =
-        bonded() && !prescribed ? bond_directions(writer_, terms_, across, !options().obstacle, s_.dimension) : std::nullopt;
+    const auto bond = bonded() ? bond_directions(writer_, terms_, across, freedom_of_primary(p), s_.dimension) : std::nullopt;
+    const bool prescribed = !writer_.moves(terms_, d, bond ? bond->normal : across);  // on both sides
     const Point& normal = bond ? bond->normal : across;
     constraint::ContactNode node{
         s_.index, s_.secondary.node_id[static_cast<std::size_t>(node_here.node)], d, normal, {}, contacts.rows.size()};
@@ -190,13 +213,19 @@ class ContactRows {
     node.cover = room < 1 ? std::min(chosen_.cover[p], 0.5 * room) : chosen_.cover[p];
     const double mean = (normal.dot(separation) - rise / d) / weight;
     const auto [mesh_gap, gap] = gaps_.at_node(p, at_nearest_place(p), at, normal, mean, terms_);
-    note_gap(initial_gap_, gap, mesh_gap, gaps_.by_geometry(gap), d * weight, node.at);
+    node.in_surface = bond && bond->in_surface;
+    if (bonded()) node.across = across;
+    if (node.in_surface) {  // what it shows are its neighbours
+      contacts.without_rows.push_back({s_.index, node.node, {across[0], across[1], across[2]}});
+    } else {
+      note_gap(initial_gap_, gap, mesh_gap, gaps_.by_geometry(gap), d * weight, node.at);
+    }
     node.gap = bonded() ? 0 : weight * (gap - options().interference);
     node.prescribed_share = bonded() ? 0 : prescribed_on_both_sides(normal);
     if (!bonded() && (prescribed || writer_.part_that_moves(terms_, d, normal) < hardly_moves))
       conflicts_.note_crossing(terms_, d, normal, node.gap, chosen_.directions[p], prescribed && chosen_.stranded[p]);
     if (prescribed) return;
-    write(node, d, bonded() ? 0 : mesh_gap, points_.moved(p) ? &at : nullptr, contacts);
+    write(node, d, Moments::across(bonded() ? 0 : mesh_gap, normal, own_normal), points_.moved(p) ? &at : nullptr, contacts);
     for (const auto& tangent : prescribed_tangents) {
       writer_.add_prescribed(terms_, d, tangent, contacts);
       node.tangents.push_back(tangent);
@@ -208,6 +237,14 @@ class ContactRows {
     between_.note(node, points_.means_field(p), terms_, d, s_.secondary, s_.primary);
     contacts.nodes.push_back(std::move(node));
     contacts.bonded.push_back(bonded());
+  }
+
+  // See bond_directions().
+  std::optional<double> freedom_of_primary(std::size_t p) const
+  {
+    constexpr double of_pair = 0.01, of_mean = 0.5;
+    if (options().obstacle) return std::nullopt;
+    return !s_.faces.is_corner(p) && matches_[s_.faces.surface_node(p)] ? of_pair : of_mean;
   }
 
   // Of a node whose direction is known: appends its tangents. Returns those along which supports hold both sides.
@@ -240,14 +277,15 @@ class ContactRows {
   }
 
   // The rows along the normal and the tangents, with the moments that these pass on.
-  void write(const constraint::ContactNode& node, double d, double gap, const Point* moved, constraint::Contacts& contacts)
+  void write(const constraint::ContactNode& node, double d, const Point& closing, const Point* moved,
+             constraint::Contacts& contacts)
   {
     if (s_.axisymmetric) {  // rings do not turn
       writer_.add(terms_, d, node.normal, constraint::bound_of(node), contacts);
       for (const auto& tangent : node.tangents) writer_.add(terms_, d, tangent, 0, contacts);
       return;
     }
-    const Moments moments(terms_, d, node.normal, gap, moved, s_.secondary, s_.primary, s_.dimension);
+    const Moments moments(terms_, d, node.normal, closing, moved, s_.secondary, s_.primary, s_.dimension);
     writer_.add(terms_, d, node.normal, constraint::bound_of(node), contacts);
     for (const auto& tangent : node.tangents) writer_.add(terms_, d, tangent, 0, contacts, moments.couple(tangent), node.normal);
   }
@@ -301,14 +339,16 @@ class ContactRows {
 
   RowsBetween::Gap gap_between(const ContactPoint& place)
   {
-    const Point direction = s_.rays.direction(place.surface_node, place.at, s_.rays.own_normal(place.where));
+    const Point own_normal = s_.rays.own_normal(place.where);
+    const Point direction = s_.rays.direction(place.surface_node, place.at, own_normal);
     const auto [mesh, gap] = gaps_.between_nodes(place, direction);
     if (std::isfinite(gap)) note_gap(initial_gap_, gap, mesh, gaps_.by_geometry(gap), 0, place.at);
-    return {direction, mesh, gap - options().interference};
+    return {direction, mesh, gap - options().interference, own_normal};
   }
 
   OpposedSides& s_;
   RowsBetween& between_;
+  const std::vector<char>& matches_;  // see IntegratedContact
   OneSurface one_surface_;
   MultiplierPoints points_;
   StartingGaps gaps_;

@@ -76,8 +76,15 @@ Eigen::VectorXd Spread::least(const Eigen::Vector2d& moment) const
   return size_.cwiseProduct(place_.transpose() * slope);
 }
 
-Moments::Moments(std::span<Term> terms, double d, const Point& normal, double gap, const Point* at, const Side& secondary,
-                 const Side& primary, int dimension)
+Point Moments::across(double gap, const Point& normal, const Point& own_normal)
+{
+  constexpr double least = 0.5;  // cosine: beyond, neither is known
+  const double cosine = own_normal.dot(normal);
+  return cosine > least ? Point(gap / cosine * own_normal) : Point(gap * normal);
+}
+
+Moments::Moments(std::span<Term> terms, double d, const Point& normal, const Point& closing, const Point* at,
+                 const Side& secondary, const Side& primary, int dimension)
     : axes_(tangent_plane(normal, dimension))
 {
   const auto middle = std::find_if(terms.begin(), terms.end(), [](const Term& term) { return term.on_primary; });
@@ -91,7 +98,8 @@ Moments::Moments(std::span<Term> terms, double d, const Point& normal, double ga
   if (other.size() < 2) return;
   for (const auto& term : other) nodes_.push_back(term.node);
   spread_ = Spread(other, d, primary, axes_);
-  offset_ = apart.dot(normal) - (std::abs(gap) > no_gap * spread_.extent() ? gap : 0.0);
+  if (std::abs(closing.dot(normal)) > no_gap * spread_.extent()) apart -= closing;
+  offset_ = apart.dot(normal);
   const Eigen::VectorXd change = spread_.least(axes_.transpose() * apart);
   add(change, d, other);
   for (Eigen::Index k = 0; k < change.size(); ++k)  // they lie on no plane

@@ -44,10 +44,14 @@ class Moments {
   /// Changes `terms` (merged, those of the secondary side first; sums of coefficients are kept) by the least, relative to their
   /// size: the secondary ones so that the row acts `at` that point, but along `normal`, if it is one other than their own; the
   /// primary ones so that s lies along `normal`: then neither side's rotations are felt by the normal row more than by the other.
-  /// `dimension`: 2 or 3. `gap`: the part of s along the normal that closes before a force acts, as that of smooth surfaces which
-  /// come to touch.
-  Moments(std::span<Term> terms, double d, const Point& normal, double gap, const Point* at, const Side& secondary,
+  /// `dimension`: 2 or 3. `closing`: the part of s that closes before a force acts, as that of smooth surfaces which come to
+  /// touch; it is across() the gap.
+  Moments(std::span<Term> terms, double d, const Point& normal, const Point& closing, const Point* at, const Side& secondary,
           const Side& primary, int dimension);
+
+  /// From a place to what is paired with it beyond a `gap` along the row's `normal`: integrals pair along the secondary side's own
+  /// normal.
+  static Point across(double gap, const Point& normal, const Point& own_normal);
 
   /// The couple along the normal on the primary nodes that makes up for s in a row along `tangent`: its coefficients sum to 0.
   /// Empty where there is none.

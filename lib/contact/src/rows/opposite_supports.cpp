@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "rows/rows.hpp"
+
 namespace mortise::contact {
 
 namespace {
@@ -39,10 +41,30 @@ bool OppositeSupports::prescribe_all(const Opposite& opposite, const Point& dire
   return free < next_to_nothing * all;
 }
 
-std::vector<char> OppositeSupports::prescribed_along_normals(CutFaces& faces, Test test) const
+Eigen::Matrix3d OppositeSupports::free_part(const Opposite& opposite) const
+{
+  Eigen::Matrix3d free = Eigen::Matrix3d::Zero();
+  if (!std::isfinite(opposite.gap)) return free;
+  const auto nodes = primary_.facets[opposite.facet];
+  double all = 0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const double part = std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]);
+    free += part * supports_.free_part(primary_.node_id[static_cast<std::size_t>(nodes[k])], dimension_);
+    all += part;
+  }
+  if (rotation_) free = (rotation_->rotation * free * rotation_->rotation.transpose()).eval();
+  return free / all;
+}
+
+bool OppositeSupports::prescribe_each(const Opposite& opposite, std::span<const Point> directions) const
+{
+  return directions_of_most(free_part(opposite), directions, next_to_nothing).empty();
+}
+
+std::vector<char> OppositeSupports::prescribed(CutFaces& faces, const Test& test) const
 {
   std::vector<char> result;
-  for (std::size_t p = 0; p < nodes_.all.size(); ++p) result.push_back((this->*test)(rays_.meet(p), nodes_.all[p].normal));
+  for (std::size_t p = 0; p < nodes_.all.size(); ++p) result.push_back(test(p, rays_.meet(p)));
   for (const std::size_t f : faces.round())
     for (const std::size_t i : faces.pieces(f)) {
       const auto piece = faces.piece(i);
@@ -55,7 +77,7 @@ std::vector<char> OppositeSupports::prescribed_along_normals(CutFaces& faces, Te
         Point at = Point::Zero();
         for (std::size_t c = 0; c < corners.size(); ++c)
           at += piece.points(k, static_cast<Eigen::Index>(c)) * secondary_.points[static_cast<std::size_t>(corners[c])];
-        result[p] = (this->*test)(rays_.met_from(p, at, nodes_.all[p].normal), nodes_.all[p].normal);
+        result[p] = test(p, rays_.met_from(p, at, nodes_.all[p].normal));
       }
     }
   return result;

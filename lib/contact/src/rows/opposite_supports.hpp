@@ -1,6 +1,7 @@
 // What supports hold of the primary side, opposite the secondary one.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -31,12 +32,17 @@ class OppositeSupports {
   bool prescribe(const Opposite& opposite, const Point& direction) const;
   /// Whether they leave next to nothing of the direction free.
   bool prescribe_all(const Opposite& opposite, const Point& direction) const;
+  /// The mean of the projectors onto what they leave free there; 0 where a line meets nothing.
+  Eigen::Matrix3d free_part(const Opposite& opposite) const;
+  /// Whether they leave next to nothing of all directions that orthonormal ones span.
+  bool prescribe_each(const Opposite& opposite, std::span<const Point> directions) const;
 
-  using Test = bool (OppositeSupports::*)(const Opposite&, const Point&) const;
-  /// Of each surface node whether they do, by one of these, along its normal where its multipliers stand: at the node, or, past
-  /// the border of the primary side, at the points inside to which the functions of faces that it covers in part belong; of
-  /// several points all.
-  std::vector<char> prescribed_along_normals(CutFaces& faces, Test test) const;
+  /// Of a surface node, what lies opposite a place where its multipliers stand.
+  using Test = std::function<bool(std::size_t node, const Opposite& opposite)>;
+  /// Of each surface node whether the test holds where its multipliers stand: at the node, or, past the border of the primary
+  /// side, at the points inside to which the functions of faces that it covers in part belong; of
+  /// several points at all.
+  std::vector<char> prescribed(CutFaces& faces, const Test& test) const;
 
  private:
   Point rotated_back(const Point& direction) const

@@ -75,6 +75,18 @@ void RowWriter::merge()
   std::erase_if(coefficients_, [](const Coefficient& c) { return std::abs(c.value) < negligible_coefficient; });
 }
 
+Few<Point, 3> directions_of_most(const Eigen::Matrix3d& part, std::span<const Point> among, double least)
+{
+  Eigen::Matrix3d within = Eigen::Matrix3d::Zero();  // among = columns of A: A A' part A A'
+  for (const Point& a : among)
+    for (const Point& b : among) within += a.dot(part * b) * a * b.transpose();
+  const auto found = dense::space_eigenpairs(within);
+  Few<Point, 3> result;
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (found.values[k] > least) result.push_back(found.vectors.col(k));
+  return result;
+}
+
 bool RowWriter::moves(std::span<const Term> terms, double d, const Point& axis)
 {
   if (!terms.empty() && !rotation_) {  // mostly the first term says it
@@ -108,11 +120,7 @@ double RowWriter::freedom(std::span<const Term> terms, bool on_primary, const Po
 
 Eigen::Matrix3d RowWriter::free_part(const Term& term) const
 {
-  Eigen::Matrix3d result = Eigen::Matrix3d::Identity();
-  for (const auto& i : skew_supports_of(term)) result -= along(i) * along(i).transpose();
-  const auto& supports = term.on_primary ? primary_supports_ : supports_;
-  for (int c = 0; c < 3; ++c)
-    if (c >= dimension_ || supports.find(node_of(term), c)) result.row(c).setZero(), result.col(c).setZero();
+  Eigen::Matrix3d result = (term.on_primary ? primary_supports_ : supports_).free_part(node_of(term), dimension_);
   if (rotation_ && term.on_primary) result = (rotation_->rotation * result * rotation_->rotation.transpose()).eval();
   return result;
 }
@@ -150,6 +158,18 @@ Few<Point, 3> RowWriter::prescribed_on_secondary(std::span<const Term> terms) co
   Few<Point, 3> result;
   for (Eigen::Index k = 0; k < 3 && moves.values[k] <= nothing; ++k) result.push_back(moves.vectors.col(k));
   return result;
+}
+
+Few<Point, 3> RowWriter::free_on_primary(std::span<const Term> terms, std::span<const Point> among, double least) const
+{
+  Eigen::Matrix3d freedom = Eigen::Matrix3d::Zero();
+  double all = 0;
+  for (const auto& term : terms) {
+    if (!term.on_primary) continue;
+    if (!one_node(term)) freedom += term.value * free_part(term);
+    all += term.value;
+  }
+  return all != 0 ? directions_of_most(freedom / all, among, least) : Few<Point, 3>();
 }
 
 void RowWriter::leave_what_moves(std::span<const Term> terms, const Point& normal, std::vector<Point>& tangents)

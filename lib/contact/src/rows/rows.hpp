@@ -17,6 +17,10 @@ namespace mortise::contact {
 void merge_terms(std::vector<Term>& terms);
 
 /// The rows sum_k value_k / d axis . u(node_k) of a contact.
+/// Orthonormal directions in the span of the orthonormal `among` of which the symmetric `part` holds more than `least`, ascending
+/// in that.
+Few<Point, 3> directions_of_most(const Eigen::Matrix3d& part, std::span<const Point> among, double least);
+
 class RowWriter {
  public:
   /// All of which must outlive it. `rotation`: the primary side is rotated before it meets the secondary one, and so are its
@@ -56,6 +60,9 @@ class RowWriter {
   /// An orthonormal basis of the directions in which supports hold the secondary nodes of the terms, those with
   /// small coefficients aside.
   Few<Point, 3> prescribed_on_secondary(std::span<const Term> terms) const;
+  /// Directions in the span of the orthonormal `among` of which supports leave more than `least` on the primary side, as in
+  /// freedom().
+  Few<Point, 3> free_on_primary(std::span<const Term> terms, std::span<const Point> among, double least) const;
   /// What supports contribute to the row.
   double prescribed_part(std::span<const Term> terms, double d, const Point& axis);
   /// Appends the row <= bound, without what supports hold. `couple`: what comes to it along another axis.

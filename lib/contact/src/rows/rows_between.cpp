@@ -248,7 +248,9 @@ void RowsBetween::add_to(constraint::Contacts& contacts, const SupportDirectory&
     }
     const bool rings = setting.kinematics == fem::Kinematics::axisymmetric;  // these do not turn
     const Moments moments =
-        rings ? Moments() : Moments(terms, 1, node.normal, gap.mesh, &place.at, secondary, primary, dimension);
+        rings ? Moments()
+              : Moments(terms, 1, node.normal, Moments::across(gap.mesh, node.normal, gap.own_normal), &place.at, secondary,
+                        primary, dimension);
     writer.add(terms, 1, node.normal, node.gap, contacts);
     for (const auto& tangent : node.tangents)
       writer.add(terms, 1, tangent, 0, contacts, rings ? std::vector<Term>() : moments.couple(tangent), node.normal);

@@ -39,6 +39,7 @@ class RowsBetween {
   struct Gap {
     Point direction;
     double mesh, bound;
+    Point own_normal;  ///< of the secondary side
   };
   using GapAt = std::function<Gap(const ContactPoint&)>;
 

@@ -151,12 +151,23 @@ void SupportConflicts::note_crossing(std::span<const Term> terms, double d, cons
   if (crossing > found_.crossing && crossing > of_interpolation(terms, d, normal)) found_.crossing = crossing;
 }
 
+// How far supports move the nodes of these terms, the most along any axis.
+double SupportConflicts::motion(std::span<const Term> terms, double d)
+{
+  double result = 0;
+  for (int c = 0; c < dimension_; ++c) result = std::max(result, std::abs(writer_.prescribed_part(terms, d, Point::Unit(c))));
+  return result;
+}
+
 void SupportConflicts::note_tear(std::span<const Term> terms, double d, const Point& normal)
 {
   const auto note = [&](const Point& direction) {
     if (writer_.moves(terms, d, direction)) return;
+    const auto own = terms.first(static_cast<std::size_t>(std::ranges::find(terms, true, &Term::on_primary) - terms.begin()));
     const double tear = std::abs(writer_.prescribed_part(terms, d, direction));
-    if (tear > found_.tear && tear > of_interpolation(terms, d, direction)) found_.tear = tear;
+    // What hardly moves may be a node that is free, whose part is missing in the sum.
+    if (tear > found_.tear && tear > nothing_moves * motion(own, d) && tear > of_interpolation(terms, d, direction))
+      found_.tear = tear;
   };
   note(normal);
   for (const auto& tangent : directions(normal, {false, false, false}, {}, dimension_).tangents) note(tangent);
@@ -204,7 +215,7 @@ void SupportConflicts::note_prescribed_tear(Local node, const Point& normal, con
                  other = writer_.prescribed_part(std::span(terms).subspan(1), 1, direction);
     const double tear = std::abs(own + other);
     if (tear > found_.tear && tear > of_normals * std::max(std::abs(own), std::abs(other)) &&
-        tear > of_interpolation(terms, 1, direction))
+        tear > nothing_moves * motion(std::span(terms).first(1), 1) && tear > of_interpolation(terms, 1, direction))
       found_.tear = tear;
   };
   note(normal);

@@ -48,6 +48,7 @@ class SupportConflicts {
 
  private:
   std::vector<Term> terms_of(Local node, const Opposite& opposite) const;
+  double motion(std::span<const Term> terms, double d);
   // What the same smooth motion of both sides may differ by there, since each mesh interpolates it between its own nodes.
   double of_interpolation(std::span<const Term> terms, double d, const Point& direction);
   // The second derivative of what supports prescribe round some nodes of one side; none if too few are held to tell.

@@ -66,6 +66,15 @@ double SupportedNodes::freedom(Global node, const Point& direction, int dimensio
   return free.norm();
 }
 
+Eigen::Matrix3d SupportedNodes::free_part(Global node, int dimension) const
+{
+  Eigen::Matrix3d result = Eigen::Matrix3d::Identity();
+  for (const auto& i : skew_supports(node)) result -= along(i) * along(i).transpose();
+  for (int c = 0; c < 3; ++c)
+    if (c >= dimension || find(node, c)) result.row(c).setZero(), result.col(c).setZero();
+  return result;
+}
+
 Point along(const constraint::SkewSupport& skew_supports)
 {
   return {skew_supports.direction[0], skew_supports.direction[1], skew_supports.direction[2]};

@@ -46,6 +46,8 @@ class SupportedNodes {
   bool holds(Global node, const Point& direction, int dimension) const;
   /// The length of what they leave free of a unit vector there.
   double freedom(Global node, const Point& direction, int dimension) const;
+  /// The projector onto what they leave free there; in plane models of the plane.
+  Eigen::Matrix3d free_part(Global node, int dimension) const;
 
  private:
   std::vector<constraint::PrescribedDof> prescribed_;

@@ -21,8 +21,8 @@ ContactNodeState state_of(const constraint::ContactNode& point, bool bonded, std
   state.cover = point.cover;
   state.normal = point.normal;
   state.parts = point.parts;
-  state.force = point.weight * multipliers[0];
-  state.force_on_secondary = -state.force * point.normal;
+  state.force = point.in_surface ? 0 : point.weight * multipliers[0];
+  state.force_on_secondary = -point.weight * multipliers[0] * point.normal;
   state.gap = (bound - jumps[0]) / point.weight;
   double tangential = 0;
   for (std::size_t t = 0; t < point.tangents.size(); ++t) {
