@@ -5,7 +5,10 @@
 #include <set>
 #include <tuple>
 
-#include "turned_nodes.hpp"
+#include "planes_at_copies.hpp"
+#include "rotated_nodes.hpp"
+#include "sent_points.hpp"
+#include "shear_free_nodes.hpp"
 
 namespace mortise::analysis {
 
@@ -15,21 +18,6 @@ using Kind = model::FaceAction::Kind;
 
 constexpr double parallel = 1e-3;     // angle between what is meant to be parallel in a mesh, and distance from a plane over size
 constexpr double right_angle = 1e-2;  // its cosine, likewise
-
-Point point(const std::array<double, 3>& x)
-{
-  return {x[0], x[1], x[2]};
-}
-
-std::array<double, 3> components(const Point& x)
-{
-  return {x[0], x[1], x[2]};
-}
-
-std::size_t home(Global node, const Communicator& comm)
-{
-  return static_cast<std::size_t>(node % comm.size());
-}
 
 // To rank node % ranks.
 std::vector<model::FaceAction> sent_home(const std::vector<model::FaceAction>& actions, const Communicator& comm)
@@ -207,13 +195,6 @@ std::vector<Point> normals_of(Actions actions)
   return normals;
 }
 
-struct PlaneAtCopy {
-  Global subdomain;
-  Local node;
-  int number;  // among the planes of the node
-  std::array<double, 3> normal;
-};
-
 // The planes of each node at all of its copies, from what acts there, on rank node % ranks. Collective.
 std::vector<std::vector<post::SymmetricNode>> at_copies(std::vector<model::FaceAction> actions,
                                                         const partition::Decomposition& decomposition,
@@ -232,26 +213,7 @@ std::vector<std::vector<post::SymmetricNode>> at_copies(std::vector<model::FaceA
     nodes.push_back(actions[i].node);
     normals.push_back(std::move(found));
   }
-  const auto copies = directory.find(nodes, comm);
-  std::vector<std::vector<PlaneAtCopy>> planes(static_cast<std::size_t>(comm.size()));
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    for (const auto& copy : copies[i])
-      for (std::size_t k = 0; k < normals[i].size(); ++k)
-        planes[static_cast<std::size_t>(decomposition.rank_of(copy.subdomain))].push_back(
-            {copy.subdomain, copy.node, static_cast<int>(k), components(normals[i][k])});
-  std::vector<PlaneAtCopy> own;
-  for (const auto& part : comm.exchange(planes)) own.insert(own.end(), part.begin(), part.end());
-  std::sort(own.begin(), own.end(), [](const PlaneAtCopy& a, const PlaneAtCopy& b) {
-    return std::tie(a.subdomain, a.node, a.number) < std::tie(b.subdomain, b.node, b.number);
-  });
-  std::vector<std::vector<post::SymmetricNode>> result(decomposition.subdomains.size());
-  const Global first = decomposition.first[static_cast<std::size_t>(comm.rank())];
-  for (const auto& plane : own) {
-    auto& of_subdomain = result[static_cast<std::size_t>(plane.subdomain - first)];
-    if (of_subdomain.empty() || of_subdomain.back().node != plane.node) of_subdomain.push_back({plane.node, {}});
-    of_subdomain.back().normals.push_back(point(plane.normal));
-  }
-  return result;
+  return planes_at_copies(nodes, normals, decomposition, directory, comm);
 }
 
 // Whether a cell at the node reaches beyond the plane.
@@ -331,7 +293,7 @@ post::SymmetricNodes find_symmetric_nodes(const model::Model& model, const Rows&
                                           const partition::Interface& interface, const Communicator& comm)
 {
   return {find_mirrored_nodes(model, rows, directory, interface, comm),
-          find_turned_nodes(rows, model.decomposition(), directory, comm)};
+          find_rotated_nodes(rows, model.decomposition(), directory, comm), find_shear_free_nodes(model, rows, directory, comm)};
 }
 
 }  // namespace mortise::analysis

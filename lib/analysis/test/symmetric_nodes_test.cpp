@@ -1,4 +1,5 @@
-// Which nodes lie on planes without shear, beside what loads, supports and contacts do there. The same on any ranks.
+// Which nodes lie on planes of symmetry, and which on faces without shear, beside what loads, supports and contacts do there. The
+// same on any ranks.
 #include "analysis/symmetric_nodes.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +37,9 @@ const std::string pressed = "loads:\n  - {boundary: upper.zmax, pressure: 2}\n";
 // The normals of each node that has some, by body, place and order; of the state after `steps`.
 class Found {
  public:
-  explicit Found(const std::string& text, int dimension = 3, std::size_t steps = 1)
+  using Nodes = std::vector<std::vector<post::SymmetricNode>> post::SymmetricNodes::*;
+  explicit Found(const std::string& text, int dimension = 3, std::size_t steps = 1,
+                 Nodes wanted = &post::SymmetricNodes::mirrored)
   {
     const Quiet quiet;
     const auto& context = quiet.context;
@@ -50,7 +53,7 @@ class Found {
     const auto interface = partition::find_interface(resolved.decomposition, directory, comm_);
     const auto state = model::load_states(deck, resolved.contacts).at(steps - 1);
     const auto rows = place(make_rows(model, state, {}, context), model, directory, {}, comm_);
-    const auto nodes = find_symmetric_nodes(model, rows, directory, interface, comm_).mirrored;
+    const auto nodes = find_symmetric_nodes(model, rows, directory, interface, comm_).*wanted;
     struct Normal {
       int body;
       std::array<double, 3> at, normal;
@@ -257,6 +260,49 @@ supports: [{boundary: disc.ymin, displacement: {y: 0}}]
   EXPECT_EQ(found.on(0, -along_y), 3);
   EXPECT_EQ(found.at(0, 0, 1, 0).size(), 2U);
   EXPECT_EQ(found.at(0, 0, 0, 0).size(), 3U);
+}
+
+// Beside faces that are clamped, pulled along themselves or bonded something may shear; pressure does not.
+TEST(ShearFreeNodes, BlocksOnEachOther)
+{
+  const auto nodes = &post::SymmetricNodes::shear_free;
+  const Found found(two_blocks + "supports:\n" + ground + pressed, 3, 1, nodes);
+  EXPECT_EQ(found.size(), 26U - 9U + 26U);
+  EXPECT_EQ(found.on(0, along_x), 6);
+  EXPECT_EQ(found.on(1, -along_y), 9);
+  EXPECT_EQ(found.at(1, 0.5, 0.5, 2), std::vector<Point>{Point::UnitZ()});
+  EXPECT_EQ(found.at(1, 1, 0.5, 2).size(), 2U);
+  EXPECT_EQ(found.at(1, 1, 1, 2).size(), 3U);
+  const Found pulled(two_blocks + "supports:\n" + ground + "loads: [{boundary: upper.zmax, traction: [1, 0, 0]}]\n", 3, 1, nodes);
+  EXPECT_EQ(pulled.size(), 26U - 9U + 26U - 9U);
+  EXPECT_EQ(pulled.on(1, along_x), 6);
+  const Found slides(two_blocks + quarter + pressed, 3, 1, nodes);
+  EXPECT_EQ(slides.on(1, -along_x), 9);
+  for (const std::string law : {"", ", friction: {bonded: true}"}) {
+    const Found joined(
+        two_blocks + "supports:\n" + ground + "contacts: [{secondary: upper.zmin, primary: lower.zmax" + law + "}]\n" + pressed,
+        3, 1, nodes);
+    EXPECT_EQ(joined.size(), 26U - 9U - 9U + 26U - 9U) << law;
+  }
+}
+
+// Faces of a curved surface have one normal together; at a reentrant edge there is none.
+TEST(ShearFreeNodes, EdgesAndCurvedSurfaces)
+{
+  const auto nodes = &post::SymmetricNodes::shear_free;
+  const std::string steel = "materials: {steel: {young_modulus: 1000, poisson_ratio: 0.3}}\n";
+  const Found ledge("dimension: plane_strain\nmesh: {file: " MORTISE_SOURCE_DIR "/lib/analysis/test/ledge.geo}\n" + steel +
+                        "bodies: {part: {material: steel}}\n",
+                    2, 1, nodes);
+  EXPECT_TRUE(ledge.at(0, 1, 1, 0).empty());
+  EXPECT_TRUE(ledge.at(0, 0, 0, 0).empty());  // 120 degrees
+  EXPECT_EQ(ledge.at(0, 2, 0, 0).size(), 2U);
+  const Found ring("dimension: plane_strain\nmesh: {file: " MORTISE_SOURCE_DIR
+                   "/regression/cases/quarter_ring.geo, constants: {n: 2}}\n" +
+                       steel + "bodies: {ring: {material: steel}}\nsupports: [{boundary: along_x, displacement: {x: 0, y: 0}}]\n",
+                   2, 1, nodes);
+  EXPECT_EQ(ring.size(), 24U - 5U);
+  EXPECT_EQ(ring.on(0, -along_x), 5);
 }
 
 }  // namespace

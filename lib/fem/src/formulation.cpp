@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include "base/dense.hpp"
+#include "tensor.hpp"
 
 namespace mortise::fem {
 
@@ -100,6 +101,19 @@ Eigen::MatrixXd CellFormulation::enriched_stiffness(const CellGeometry& cell)
   return k;
 }
 
+// What hoop strains, which `result_` has, push the modes with.
+void CellFormulation::add_hoop_forces(const CellGeometry& cell, Eigen::VectorXd& forces) const
+{
+  const Eigen::Index n = cell.element().nodes, d = dimension_;
+  for (std::size_t q = 0; q < result_.size(); ++q) {
+    const Eigen::Map<const Eigen::MatrixXd> gradient(enriched_.data() + q * static_cast<std::size_t>((n + d) * d), n + d, d);
+    Eigen::Matrix3d hoop = Eigen::Matrix3d::Zero();
+    hoop(2, 2) = result_[q](2, 2);
+    const Tensor stress = tensor(elasticity_.stress(hoop, 0, place_of(cell, q)));
+    forces.reshaped(d, d) += cell.volumes()[q] * stress.topLeftCorner(d, d) * gradient.bottomRows(d).transpose();
+  }
+}
+
 void CellFormulation::stiffness(const CellGeometry& cell, std::vector<double>& k)
 {
   const Element& element = cell.element();
@@ -147,8 +161,9 @@ const std::vector<Eigen::Matrix3d>& CellFormulation::gradients(const CellGeometr
   } else if (formulation_ == Formulation::incompatible) {
     const Eigen::MatrixXd all = enriched_stiffness(cell);
     const Eigen::Index modes = d * d;
-    const Eigen::VectorXd amplitudes = -dense::solve_symmetric(all.bottomRightCorner(modes, modes),
-                                                               all.bottomLeftCorner(modes, n * d) * displacement.reshaped());
+    Eigen::VectorXd forces = all.bottomLeftCorner(modes, n * d) * displacement.reshaped();
+    if (cell.axisymmetric()) add_hoop_forces(cell, forces);
+    const Eigen::VectorXd amplitudes = -dense::solve_symmetric(all.bottomRightCorner(modes, modes), forces);
     for (std::size_t q = 0; q < result_.size(); ++q) {
       const Eigen::Map<const Eigen::MatrixXd> gradient(enriched_.data() + q * static_cast<std::size_t>((n + d) * d), n + d, d);
       result_[q].topLeftCorner(d, d) += amplitudes.reshaped(d, d) * gradient.bottomRows(d);

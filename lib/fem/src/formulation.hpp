@@ -14,7 +14,7 @@ namespace mortise::fem {
 /// bbar: the change of volume is that of the whole cell, div u -> mean of div u [Hughes, IJNME 15 (1980)].
 /// incompatible: u gains a_k (1 - xi_k^2) for each direction k of the reference cell, eliminated cell by cell; their gradients
 /// are taken with the Jacobian of the centre, which keeps the patch test [Wilson et al. (1973); Taylor, Beresford and Wilson,
-/// IJNME 10 (1976)].
+/// IJNME 10 (1976)]. In axisymmetry these have no hoop strain of their own: good enough to tell what bends, not for K.
 /// Orthotropic materials have the first and the last.
 class CellFormulation {
  public:
@@ -31,6 +31,7 @@ class CellFormulation {
 
  private:
   Eigen::MatrixXd enriched_stiffness(const CellGeometry& cell);
+  void add_hoop_forces(const CellGeometry& cell, Eigen::VectorXd& forces) const;
 
   Formulation formulation_;
   Elasticity elasticity_;

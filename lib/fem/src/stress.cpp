@@ -156,7 +156,7 @@ Eigen::VectorXd squared_errors_of_bending(const mesh::Mesh& mesh, const Material
 {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.cells.size()));
   const auto knows = [](mesh::CellType type) { return applies(Formulation::incompatible, type); };
-  if (kinematics == Kinematics::axisymmetric || !std::ranges::all_of(mesh.cells.type, knows)) return result;
+  if (!std::ranges::all_of(mesh.cells.type, knows)) return result;
   for (const auto& [formulation, sign] : {std::pair(Formulation::standard, 1.0), std::pair(Formulation::incompatible, -1.0)})
     for_each_cell(mesh, materials, kinematics, formulation, temperature_change, u,
                   [&](std::size_t c, const CellGeometry& cell, const Stresses& stress, const Elasticity& elasticity) {

@@ -55,7 +55,7 @@ Stress symmetric_stress(const Stress& stress, std::span<const Point> normals)
   return entries(result + rest * s * rest);
 }
 
-Stress turned_stress(const Stress& stress, const Eigen::Matrix3d& rotation)
+Stress rotated_stress(const Stress& stress, const Eigen::Matrix3d& rotation)
 {
   return entries(rotation * tensor(stress) * rotation.transpose());
 }

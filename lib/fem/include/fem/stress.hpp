@@ -58,7 +58,7 @@ Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& material
                                const Eigen::VectorXd& u, const Eigen::MatrixXd& recovered, const Eigen::MatrixXd& other,
                                Formulation formulation = Formulation::standard, const Temperature& temperature_change = {});
 
-/// For each cell (hex8, quad4; none of others, nor in axisymmetry) the squared energy norm of what incompatible modes would add
+/// For each cell (hex8, quad4; none of others) the squared energy norm of what incompatible modes would add
 /// to the displacements u of standard cells: that of s - s*, of twice the energy that they would take away. In one layer of
 /// cells, which are too stiff in bending, it is most of the error, and recovered stresses do not show it.
 Eigen::VectorXd squared_errors_of_bending(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,

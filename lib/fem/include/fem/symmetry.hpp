@@ -18,7 +18,7 @@ std::vector<std::vector<Point>> mirrored_spaces(std::span<const Point> normals);
 /// principal direction of it. Of planes that are not at right angles so is all that their normals span.
 Stress symmetric_stress(const Stress& stress, std::span<const Point> normals);
 
-/// R sigma R', the stress after the body has been turned by the rotation R.
-Stress turned_stress(const Stress& stress, const Eigen::Matrix3d& rotation);
+/// R sigma R', the stress after the body has been rotated by R.
+Stress rotated_stress(const Stress& stress, const Eigen::Matrix3d& rotation);
 
 }  // namespace mortise::fem

@@ -12,7 +12,11 @@
 // At nodes on planes of symmetry both are those of the whole body: cells beyond the plane have the mirror images of the stresses,
 // so that the shear across it cancels in averages (fem/symmetry.hpp), and patches go on in them (of planes at right angles).
 //
-// At nodes of a sector's cuts that match, both are means with those of the node that is one with it, turned.
+// At nodes of a sector's cuts that match, both are means with those of the node that is one with it, rotated.
+//
+// At faces that nothing acts along neither recovery of the estimate has shear (SymmetricNodes::shear_free), as the exact stress has
+// none: where stresses are smooth along a body of one or two cells across, nothing else shows the error [cf. Rodenas et al., Int. J.
+// Numer. Methods Eng. 70 (2007), who make recovered stresses fulfil the boundary's equilibrium].
 //
 // Of boundary elements stresses are known at the surface, panel by panel, and averaged in the same way.
 #pragma once
@@ -37,19 +41,21 @@ struct SymmetricNode {
   std::vector<Point> normals;
 };
 
-/// A node on the cut of a sector that is one with a node of its other cut, turned: u(node) = turn u(other).
-struct TurnedNode {
+/// A node on the cut of a sector that is one with a node of its other cut, rotated: u(node) = rotation u(other).
+struct RotatedNode {
   Local node;
   Global subdomain;  ///< of one copy of the other node
   Local other;
-  Eigen::Matrix3d turn;
+  Eigen::Matrix3d rotation;
 };
 
 /// Nodes at which a body goes on beyond what is meshed of it: of each subdomain of this rank, ascending; all copies of a node
 /// have the same.
 struct SymmetricNodes {
   std::vector<std::vector<SymmetricNode>> mirrored;  ///< in planes; no subdomain if there are none on any rank
-  std::vector<std::vector<TurnedNode>> turned;       ///< in sectors; no subdomain if there are none on any rank
+  std::vector<std::vector<RotatedNode>> rotated;       ///< in sectors; no subdomain if there are none on any rank
+  /// Not symmetric, but faces there bear no traction along themselves: recovered stresses of the error estimate have none either.
+  std::vector<std::vector<SymmetricNode>> shear_free = {};
 };
 
 /// What the recovery works on. Refers to its parts.

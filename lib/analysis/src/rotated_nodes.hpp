@@ -11,7 +11,7 @@ namespace mortise::analysis {
 
 /// Of each subdomain of this rank, ascending, those whose bond has rows u(secondary) = R u(primary) for one node, of any body;
 /// none at all if no rank has any. Where meshes do not match there are none, nor where supports hold all of a node. Collective.
-std::vector<std::vector<post::TurnedNode>> find_turned_nodes(const Rows& rows, const partition::Decomposition& decomposition,
+std::vector<std::vector<post::RotatedNode>> find_rotated_nodes(const Rows& rows, const partition::Decomposition& decomposition,
                                                              const partition::NodeDirectory& directory, const Communicator& comm);
 
 }  // namespace mortise::analysis

@@ -1,4 +1,4 @@
-#include "turned_nodes.hpp"
+#include "rotated_nodes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +14,13 @@ namespace {
 
 constexpr double negligible = 1e-6;  // of a row's coefficients
 
-// Nodes that a contact makes one: that of its secondary side has the other one's displacement, turned.
+// Nodes that a contact makes one: that of its secondary side has the other one's displacement, rotated.
 struct Union {
   Global secondary, primary;
   int contact;
 };
 
-Eigen::Matrix3d turn_of(const Rows& rows, int contact)
+Eigen::Matrix3d rotation_of_bond(const Rows& rows, int contact)
 {
   return contact::rotation_of(rows.pairs[static_cast<std::size_t>(contact)].options)->rotation;
 }
@@ -51,13 +51,17 @@ std::vector<Union> unions(const Rows& rows)
     if (!rows.pairs[static_cast<std::size_t>(node.contact)].options.cyclic) continue;
     if (const auto other = partner(contacts, node)) result.push_back({node.node, *other, node.contact});
   }
+  for (const auto& node : contacts.without_rows)  // wholly held on both cuts
+    if (node.opposite >= 0 && rows.pairs[static_cast<std::size_t>(node.contact)].options.cyclic)
+      result.push_back({node.node, node.opposite, node.contact});
   return result;
 }
 
 }  // namespace
 
-std::vector<std::vector<post::TurnedNode>> find_turned_nodes(const Rows& rows, const partition::Decomposition& decomposition,
-                                                             const partition::NodeDirectory& directory, const Communicator& comm)
+std::vector<std::vector<post::RotatedNode>> find_rotated_nodes(const Rows& rows, const partition::Decomposition& decomposition,
+                                                               const partition::NodeDirectory& directory,
+                                                               const Communicator& comm)
 {
   const auto found = unions(rows);
   if (!comm.any(!found.empty())) return {};
@@ -83,12 +87,12 @@ std::vector<std::vector<post::TurnedNode>> find_turned_nodes(const Rows& rows, c
     return std::tie(a.subdomain, a.node, a.subdomain_of_other, a.other) <
            std::tie(b.subdomain, b.node, b.subdomain_of_other, b.other);
   });
-  std::vector<std::vector<post::TurnedNode>> result(decomposition.subdomains.size());
+  std::vector<std::vector<post::RotatedNode>> result(decomposition.subdomains.size());
   const Global first = decomposition.first[static_cast<std::size_t>(comm.rank())];
   for (const auto& at : own) {
-    const Eigen::Matrix3d turn = turn_of(rows, at.contact);
+    const Eigen::Matrix3d rotation = rotation_of_bond(rows, at.contact);
     result[static_cast<std::size_t>(at.subdomain - first)].push_back(
-        {at.node, at.subdomain_of_other, at.other, at.secondary ? turn : Eigen::Matrix3d(turn.transpose())});
+        {at.node, at.subdomain_of_other, at.other, at.secondary ? rotation : Eigen::Matrix3d(rotation.transpose())});
   }
   return result;
 }

@@ -1,0 +1,20 @@
+// Planes through nodes, told to the subdomains that have copies of these.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "partition/node_directory.hpp"
+#include "post/stress_recovery.hpp"
+
+namespace mortise::analysis {
+
+/// The planes with the unit normals `normals[i]` of the nodes `nodes[i]`, at all of their copies: of each subdomain of this rank,
+/// ascending. Collective.
+std::vector<std::vector<post::SymmetricNode>> planes_at_copies(std::span<const Global> nodes,
+                                                               std::span<const std::vector<Point>> normals,
+                                                               const partition::Decomposition& decomposition,
+                                                               const partition::NodeDirectory& directory,
+                                                               const Communicator& comm);
+
+}  // namespace mortise::analysis
