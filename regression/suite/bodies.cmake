@@ -119,6 +119,12 @@ mortise_regression(bimetal RANKS 1 STUDY_RANKS 2)
 # Preloaded bolts.
 mortise_regression(preload_bar RANKS 1 2 3)
 mortise_regression(preload_joint RANKS 1 STUDY_RANKS 2)
+mortise_regression(quarter_bolt RANKS 1 STUDY_RANKS 2 3)
+mortise_regression(quarter_bolt VARIANT .sector EXPECTED cases/quarter_bolt.sector.expected.json RANKS 1 STUDY_RANKS 2 3
+  SET "supports=[{boundary: foot, displacement: {z: 0}}, {boundary: top, displacement: {z: 0}}]"
+      "contacts=[{name: cut, secondary: under, primary: over, friction: {bonded: true}, preload: {force: 100}}, \
+{name: shank, secondary: shank:across_x, primary: shank:across_y, friction: {bonded: true}, cyclic: {angle: 90}}, \
+{name: head, secondary: head:across_x, primary: head:across_y, friction: {bonded: true}, cyclic: {angle: 90}}]")
 mortise_regression(preload_locked RANKS 1)
 mortise_regression(preload_two_bolts RANKS 3 STUDY_RANKS 1)
 foreach(deck preload_bar preload_joint)

@@ -36,6 +36,26 @@ foreach(element tet4 tet10 hex27)
 endforeach()
 mortise_regression(bond_at_symmetry VARIANT .coarse EXPECTED cases/bond_at_symmetry.expected.json RANKS 1
   SET mesh.constants.lower=3 mesh.constants.upper=4)
+mortise_regression(bent_ring RANKS 1)
+mortise_regression(twisted_bar RANKS 1 STUDY_RANKS 2 3)
+foreach(element hex8 hex27 prism15 tet10)
+  mortise_regression(twisted_bar VARIANT .${element} SET mesh.blocks.bar.element=${element} EXPECTED cases/twisted_bar.expected.json RANKS 1)
+endforeach()
+mortise_regression(bond_matched RANKS 1 3)
+mortise_regression(bond_matched VARIANT .swapped EXPECTED cases/bond_matched.expected.json RANKS 1
+  SET contacts[0].secondary=upper_joint contacts[0].primary=lower_joint)
+foreach(side lower upper)
+  if(side STREQUAL lower)
+    set(other upper)
+  else()
+    set(other lower)
+  endif()
+  mortise_regression(bond_matched VARIANT .oblique.${side} EXPECTED cases/bond_matched.oblique.expected.json RANKS 1
+    SET mesh.constants.slope=0 "supports[1].displacement={x: 0, z: 0}" "supports[2]={boundary: upper_side, axes: askew, displacement: {x: 0}}"
+        contacts[0].secondary=${side}_joint contacts[0].primary=${other}_joint)
+endforeach()
+mortise_regression(bond_matched VARIANT .normal EXPECTED cases/bond_matched.normal.expected.json RANKS 1 STUDY_RANKS 2 3
+  SET mesh.constants.slope=0 "supports[2].displacement={z: 0}")
 mortise_regression(stress_at_cuts RANKS 1 2 3)
 mortise_regression(stress_at_cuts VARIANT .foot EXPECTED cases/stress_at_cuts.foot.expected.json RANKS 1 STUDY_RANKS 2 3
   SET mesh.constants.foot=1)
@@ -167,6 +187,16 @@ mortise_regression(warned_loose VARIANT .pressed EXPECTED cases/warned_loose.pre
 mortise_regression(pressed_plates VARIANT .400 DIRECTORY hard/decks EXPECTED cases/pressed_plates.400.expected.json RANKS 1
                    SET mesh.blocks.a.size=[400,400,1] mesh.blocks.b.size=[400,400,1] mesh.blocks.a.cells=[40,40,2] mesh.blocks.b.cells=[32,32,2]
                        decomposition.unknowns_per_subdomain=4000)
+foreach(way 1e-6 direct)
+  if(way STREQUAL direct)
+    set(more solver.algorithm=direct solver.tolerance=1e-4)
+  else()
+    set(more solver.tolerance=${way})
+  endif()
+  mortise_regression(pressed_plates VARIANT .400.${way} DIRECTORY hard/decks EXPECTED cases/pressed_plates.400.expected.json RANKS 1
+                     SET mesh.blocks.a.size=[400,400,1] mesh.blocks.b.size=[400,400,1] mesh.blocks.a.cells=[40,40,2] mesh.blocks.b.cells=[32,32,2]
+                         decomposition.unknowns_per_subdomain=4000 ${more})
+endforeach()
 foreach(width 300 1000)
   mortise_regression(pressed_plates VARIANT .${width} DIRECTORY hard/decks EXPECTED cases/pressed_plates.${width}.expected.json RANKS 1
                      SET mesh.blocks.a.size=[${width},${width},1] mesh.blocks.b.size=[${width},${width},1] solver.tolerance=1e-8)

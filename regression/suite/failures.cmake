@@ -16,7 +16,7 @@ foreach(deck wrong_fits beyond_axis wrong_formulation wrong_auto wrong_names wro
         wrong_temperatures wrong_loads wrong_obstacles preload_without_seat wrong_cyclic cyclic_wrong_way too_many_cells
         script_in_disguise script_with_commands hostile_aliases hostile_alias_within hostile_numbers too_many_copies wrong_surfaces
         wrong_couplings wrong_formulas polar_rings wrong_axes moved_axis wrong_probes wrong_springs no_constant own_constant tab
-        wrong_body_patterns copies_of_pattern uncovered_body across_sectors)
+        wrong_body_patterns copies_of_pattern uncovered_body across_sectors two_entries moved_into_obstacle)
   mortise_regression(${deck} DIRECTORY must_fail RANKS 1)
 endforeach()
 mortise_regression(across_sectors VARIANT .oblique DIRECTORY must_fail RANKS 1

@@ -35,6 +35,9 @@ mortise_regression(hertz_sphere_axisymmetric VARIANT .smalse DIRECTORY ../inputs
 # Stopped where the solver's error is a tenth of the mesh's.
 mortise_regression(hertz_cylinder VARIANT .auto DIRECTORY ../inputs/hertz_cylinder EXPECTED inputs/hertz_cylinder_auto.expected.json
                    RANKS 1 STUDY_RANKS 2 SET solver.tolerance=auto)
+# Fine faces beside which the gap is wide: the edge of contact, 6.21, and no peak beside it.
+mortise_regression(hertz_cylinder VARIANT .fine DIRECTORY ../inputs/hertz_cylinder EXPECTED inputs/hertz_cylinder_fine.expected.json
+                   RANKS 1 STUDY_RANKS 2 SET mesh.constants.h=0.05)
 # Cells of second order on coarser meshes.
 mortise_regression(press_fit VARIANT .second_order DIRECTORY ../inputs/press_fit EXPECTED inputs/press_fit_second_order.expected.json
                    RANKS 1 STUDY_RANKS 2 SET mesh.constants.order=2 mesh.constants.n=8)

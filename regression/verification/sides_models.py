@@ -133,6 +133,13 @@ QUICK_BLOCKS = {  # in a plane, in space
 }
 
 
+SUITE_BLOCKS = {  # in space, beside the quick ones
+    "tenth": ("hex20", "frictionless"),
+    "third": ("prism15", "coulomb"),
+    "two_thirds": ("hex27", "coulomb"),
+}
+
+
 def block_models():
     for name, part in (("tenth", 0.1), ("third", 1 / 3), ("two_thirds", 2 / 3)):
         offset = 0.2 * part
@@ -148,6 +155,7 @@ def block_models():
                 (dimension - 1, 10),
                 block_cell,
                 quick=QUICK_BLOCKS[name][dimension - 2],
+                suite=QUICK_BLOCKS[name][dimension - 2] + ((SUITE_BLOCKS[name],) if dimension == 3 else ()),
             )
 
 
