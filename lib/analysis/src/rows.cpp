@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <tuple>
 
@@ -19,41 +20,45 @@ namespace mortise::analysis {
 
 namespace {
 
-// Of each contact whether nodes of it are on a cut of a sector, of which the axis; the same on every rank. Collective.
+// Of each preloaded contact with nodes on both cuts of a sector, as of a bolt on its axis, that axis; the same on every rank.
+// Half a bolt at one cut is drawn along itself. Collective.
 std::vector<std::optional<Point>> axes_of_sectors(const Rows& rows, const Communicator& comm)
 {
+  enum Side { secondary, primary, none };  // of a cut
   struct AtNode {
     Global node;
     int contact;
-    bool of_cut;
+    Side side;
   };
   std::vector<std::vector<AtNode>> send(static_cast<std::size_t>(comm.size()));
-  const auto tell = [&](Global node, std::size_t contact, bool of_cut) {
+  const auto tell = [&](Global node, std::size_t contact, Side side) {
     send[static_cast<std::size_t>(node) % static_cast<std::size_t>(comm.size())].push_back(
-        {node, static_cast<int>(contact), of_cut});
+        {node, static_cast<int>(contact), side});
   };
   for (std::size_t c = 0; c < rows.pairs.size(); ++c) {
-    if (!rows.pairs[c].options.cyclic) continue;
-    for (const Global node : rows.pairs[c].secondary.node_id) tell(node, c, true);
-    for (const Global node : rows.pairs[c].primary->node_id) tell(node, c, true);
+    const auto& [options, own, opposite] = rows.pairs[c];
+    if (!options.cyclic && !options.preload) continue;
+    for (const Global node : own.node_id) tell(node, c, options.cyclic ? secondary : none);
+    if (!opposite) continue;
+    for (const Global node : opposite->node_id) tell(node, c, options.cyclic ? primary : none);
   }
-  for (const auto& node : rows.constraints.contacts.nodes)
-    if (rows.pairs[static_cast<std::size_t>(node.contact)].options.preload)
-      tell(node.node, static_cast<std::size_t>(node.contact), false);
   std::vector<AtNode> all;
   for (const auto& part : comm.exchange(send)) all.insert(all.end(), part.begin(), part.end());
-  std::ranges::sort(all, {}, [](const AtNode& at) { return std::tuple(at.node, !at.of_cut, at.contact); });
-  std::vector<long long> cut_of(rows.pairs.size(), -1);
-  for (std::size_t i = 0, cut = 0; i < all.size(); ++i) {
-    if (all[i].of_cut) cut = i;
-    if (!all[i].of_cut && all[cut].of_cut && all[cut].node == all[i].node)
-      cut_of[static_cast<std::size_t>(all[i].contact)] = all[cut].contact;
+  std::ranges::sort(all, {}, [](const AtNode& at) { return std::tuple(at.node, at.side, at.contact); });
+  std::vector<std::array<long long, 2>> cut_at(rows.pairs.size(), {-1, -1});  // by the sides of the cut
+  for (auto begin = all.begin(); begin != all.end();) {
+    const auto end = std::find_if(begin, all.end(), [&](const AtNode& at) { return at.node != begin->node; });
+    for (auto own = begin; own != end; ++own)
+      for (auto cut = begin; own->side == none && cut != end && cut->side != none; ++cut)
+        cut_at[static_cast<std::size_t>(own->contact)][cut->side] = cut->contact;
+    begin = end;
   }
-  for (auto& cut : cut_of) cut = comm.max(cut);
+  for (auto& sides : cut_at)
+    for (auto& cut : sides) cut = comm.max(cut);
   std::vector<std::optional<Point>> result(rows.pairs.size());
   for (std::size_t c = 0; c < result.size(); ++c)
-    if (cut_of[c] >= 0) {
-      const auto& cut = rows.pairs[static_cast<std::size_t>(cut_of[c])].options;
+    if (std::ranges::min(cut_at[c]) >= 0) {
+      const auto& cut = rows.pairs[static_cast<std::size_t>(cut_at[c].front())].options;
       result[c] = Eigen::AngleAxisd(contact::rotation_of(cut)->rotation).axis();
     }
   return result;

@@ -66,7 +66,8 @@ Point direction(const Contacts& contacts, const Preload& preload, int dimension,
   std::vector<double> sums(4, 0.0);  // area times normal, area
   for (const auto& node : contacts.nodes) {
     if (node.contact != preload.contact) continue;
-    for (int c = 0; c < 3; ++c) sums[static_cast<std::size_t>(c)] += node.area * (node.across.isZero(0) ? node.normal : node.across)[c];
+    for (int c = 0; c < 3; ++c)
+      sums[static_cast<std::size_t>(c)] += node.area * (node.across.isZero(0) ? node.normal : node.across)[c];
     sums[3] += node.area;
   }
   comm.sum_in_place(sums);
