@@ -117,8 +117,7 @@ mesh::Surface near_others(const mesh::Surface& skin, const Lengths& lengths, con
     for (std::size_t b = 0; b < largest.size(); ++b)
       if (static_cast<int>(b) != body && largest[b] > 0)
         widest = std::max(widest, lengths.margin(sizes[f], body, largest[b], static_cast<int>(b)));
-    const auto near = tree.candidates(grown(boxes[f], widest));
-    if (std::any_of(near.begin(), near.end(), [&](int p) {
+    if (tree.any_of(grown(boxes[f], widest), [&](int p) {
           const auto& part = parts[at(p)];
           return part.body != body &&
                  grown(boxes[f], lengths.margin(sizes[f], body, part.size, part.body)).intersects(part_boxes[at(p)]);

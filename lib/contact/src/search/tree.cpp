@@ -96,8 +96,17 @@ std::vector<int> Tree::candidates(const Box& box) const
 
 bool Tree::meets(const Box& box) const
 {
+  return any_of(box, [](int) { return true; });
+}
+
+bool Tree::any_of(const Box& box, const std::function<bool(int)>& holds) const
+{
   bool any = false;
-  walk([&](const Box& other) { return other.intersects(box); }, [&](int) { return any = true, false; });
+  walk([&](const Box& other) { return other.intersects(box); },
+       [&](int i) {
+         any = holds(i);
+         return !any;
+       });
   return any;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,8 @@ class Tree {
   std::vector<int> candidates(const Box& box) const;
   /// Whether any box meets `box`.
   bool meets(const Box& box) const;
+  /// Whether `holds` of the index of any box that meets `box`.
+  bool any_of(const Box& box, const std::function<bool(int)>& holds) const;
   /// Indices of those that meet what `box` sweeps when it moves by -direction to +direction.
   std::vector<int> swept(const Box& box, const Point& direction) const;
   // The same, into `found`.
