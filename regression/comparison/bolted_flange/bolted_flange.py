@@ -117,8 +117,8 @@ def main():
                     row[HEAD[5]] = f"{run.cpu / ours.cpu:.0f}" if found else f"more than {run.cpu / ours.cpu:.0f}"
                 if found and (solver == "SPOOLES" or row[HEAD[-1]] is None):
                     row.update({key: f"{form.format(a)} / {form.format(b)}" for key, form, a, b in zip(AGREEMENT, FORMATS, found, own)})
-                if arguments.write:
-                    page_tables.write(page, "flange", HEAD, [list(row.values())])
+            if arguments.write:
+                page_tables.write(page, "flange", HEAD, [list(row.values())])
 
 
 if __name__ == "__main__":
