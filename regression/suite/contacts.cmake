@@ -109,6 +109,10 @@ mortise_regression(warned_stack RANKS 1 2 3)
 foreach(deck warned_slide warned_crush warned_size bonded_tension)
   mortise_regression(${deck} RANKS 1 STUDY_RANKS 2 3)
 endforeach()
+mortise_regression(rolled_roller RANKS 1 STUDY_RANKS 2 3)
+mortise_regression(rolled_roller VARIANT .pressed RANKS 2 STUDY_RANKS 1 EXPECTED cases/rolled_roller.pressed.expected.json
+                   SET "supports=[{name: base, boundary: bottom, displacement: {x: 0, y: 0}}, {name: drive, boundary: top, displacement: {x: 0.3}}]"
+                       "loads=[{boundary: top, pressure: 26.28}]")
 foreach(deck bonded_gap tresca_gap)
   mortise_regression(${deck} RANKS 2 STUDY_RANKS 1 3)
 endforeach()

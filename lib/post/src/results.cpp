@@ -110,6 +110,10 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   const double norm = estimate_errors(solved, rounding, stored, comm, results);
   if (bodies.kinematics != fem::Kinematics::axisymmetric)
     results.moments = contact_moments(problem, lambda, bodies.decomposition, bodies.kinematics, pairs, results.contact.states);
+  auto energies = results.stress.body_energy;
+  comm.sum_in_place(energies);
+  results.turn =
+      large_turn(problem, lambda, bodies.decomposition, bodies.kinematics, displacement, results.contact.states, energies);
   results.reactions = reactions(problem, lambda, supports);
   results.couplings = coupling_states(problem, lambda);
   results.springs = spring_states(problem, lambda);

@@ -3,6 +3,7 @@
 
 #include "pieces.hpp"
 #include "post/contact_checks.hpp"
+#include "post/large_turns.hpp"
 
 namespace mortise::post {
 namespace {
@@ -284,6 +285,47 @@ TEST(FrictionsAcrossGaps, FromAHundredthOfTrescasForces)
   EXPECT_TRUE(found(1.01, 0.1, 1e9).empty());
   pairs[0].options.law = contact::Law::coulomb;
   EXPECT_TRUE(found(50, 0.1).empty());
+}
+
+// The upper block, 1 high, has turned by phi about x: a rotation would make it phi^2 / 2 lower than the linear displacement,
+// whose top a support holds, and the joint feels that. What pushes the top down instead gives way.
+TEST(LargeTurns, AreFeltBetweenWhatIsHeld)
+{
+  constexpr double phi = 0.02, force = 4, nodes = 15;
+  const std::vector<double> energies{1.0, 2.0};
+  const auto found = [&](bool held) {
+    MadeUp contact(false);
+    if (!held) contact.column.dirichlet_rows({{"lower.zmin", {0.0, 0.0, 0.0}}});
+    const auto problem = contact.column.problem();
+    const auto lambda = contact.multipliers(problem, [&](const Point&) { return Point(force, 0, 0); });
+    const auto u = contact.column.displacement([&](const Point& x, int body) {
+      return body == 0 ? Point(Point::Zero()) : Point(Point(phi, 0, 0).cross(x - Point(1.5, 1.5, 1.5)));
+    });
+    const auto states = contact.results(problem, lambda, u).states;
+    return large_turn(problem, lambda, contact.column.decomposition, fem::Kinematics::solid, u, states, energies);
+  };
+  const double change = nodes * force * phi * phi / 2 / (2 * 3);
+  const auto turn = found(true);
+  EXPECT_NEAR(turn.change, change, 0.02 * change);
+  EXPECT_EQ(turn.sign, -1);
+  EXPECT_EQ(turn.body, 1);
+  EXPECT_NEAR(turn.angle, phi, 1e-12);
+  EXPECT_NEAR(turn.largest.at[2], 1, 1e-12);
+  EXPECT_LT(found(false).change, 1e-6 * change);
+}
+
+TEST(LargeTurns, WarnFromTwoPerCentOn)
+{
+  const std::vector<contact::Pair> pairs(1);
+  const auto told = [&](double change) {
+    return large_turns({change, -1, {change, Point::Zero(), 0}, 1, 0.02}, pairs, {"lower", "upper"});
+  };
+  EXPECT_TRUE(told(0.0199).empty());
+  const auto warnings = told(0.0201);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].kind, "large_turn");
+  EXPECT_EQ(warnings[0].body, "upper");
+  EXPECT_NE(warnings[0].text.find("too large"), std::string::npos);
 }
 
 }  // namespace

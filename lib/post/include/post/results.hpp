@@ -7,6 +7,7 @@
 #include "post/contact_results.hpp"
 #include "post/extremes.hpp"
 #include "post/interior.hpp"
+#include "post/large_turns.hpp"
 #include "post/nonconformity.hpp"
 #include "post/strength.hpp"
 #include "post/stress_recovery.hpp"
@@ -21,6 +22,7 @@ struct Results {
   std::vector<Extreme> extremes;  ///< see find_extremes()
   ContactResults contact;
   std::vector<ContactMoment> moments;    ///< of each contact; none in axisymmetry
+  LargeTurn turn;                        ///< what small displacements leave out
   std::vector<Reaction> reactions;       ///< of each support
   std::vector<CouplingState> couplings;  ///< of each coupling, by name
   std::vector<SpringState> springs;      ///< of each spring between points, by name
