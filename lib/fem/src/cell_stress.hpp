@@ -1,6 +1,7 @@
 // The stresses at the integration points of each cell of a piece, which recovery, patches and error estimates start from.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "cell_temperature.hpp"
@@ -27,10 +28,12 @@ inline std::vector<Elasticity> elasticities(const Materials& materials, Kinemati
   return result;
 }
 
-// Calls visit(c, cell, stress, elasticity) for every cell c; stress is 6 x q.
+// Calls visit(c, cell, stress, elasticity) for every cell c; stress is 6 x q. `taken`: the formulation whose temperatures it
+// takes, if that is another one.
 template <class Visit>
 void for_each_cell(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, Formulation formulation,
-                   const Temperature& temperature_change, const Eigen::VectorXd& u, const Visit& visit)
+                   const Temperature& temperature_change, const Eigen::VectorXd& u, const Visit& visit,
+                   std::optional<Formulation> taken = {})
 {
   const int d = dimension(kinematics);
   const auto elasticity = elasticities(materials, kinematics);
@@ -48,8 +51,9 @@ void for_each_cell(const mesh::Mesh& mesh, const Materials& materials, Kinematic
     for (int i = 0; i < cell.element().nodes; ++i) displacement.col(i) = u.segment(nodes[static_cast<std::size_t>(i)] * d, d);
     stress.resize(6, static_cast<Eigen::Index>(cell.volumes().size()));
     const auto& own = elasticity[materials.index(c)];
-    cell_temperature(temperature_change, cell, mesh, c, warmer);
-    const auto& gradients = cell_formulation[materials.index(c)].gradients(cell, displacement);
+    cell_temperature(temperature_change, cell, mesh, c, !takes_gradients(mesh.cells.type[c], taken.value_or(formulation)),
+                     warmer);
+    const auto& gradients = cell_formulation[materials.index(c)].gradients(cell, displacement, warmer);
     for (std::size_t q = 0; q < gradients.size(); ++q)
       stress.col(static_cast<Eigen::Index>(q)) = own.stress(gradients[q], warmer[q], place_for(own, cell, q));
     visit(c, cell, stress, own);

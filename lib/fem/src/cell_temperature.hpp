@@ -1,14 +1,21 @@
 // The temperature that a cell's strains are counted from.
 #pragma once
 
+#include "fem/stiffness.hpp"
 #include "fem/temperature.hpp"
 #include "geometry.hpp"
 
 namespace mortise::fem {
 
-/// Degrees at the integration points of cell c, which `cell` was evaluated for; see add_expansion().
+/// Whether strains may vary in a cell as a temperature does that varies linearly: see add_expansion().
+inline bool takes_gradients(mesh::CellType type, Formulation formulation)
+{
+  return mesh::second_order(type) || (formulation == Formulation::incompatible && applies(formulation, type));
+}
+
+/// Degrees at the integration points of cell c, which `cell` was evaluated for, or everywhere their mean.
 inline const std::vector<double>& cell_temperature(const Temperature& temperature, const CellGeometry& cell,
-                                                   const mesh::Mesh& mesh, std::size_t c, std::vector<double>& values)
+                                                   const mesh::Mesh& mesh, std::size_t c, bool mean, std::vector<double>& values)
 {
   const auto& volumes = cell.volumes();
   values.assign(volumes.size(), temperature.uniform);
@@ -22,7 +29,7 @@ inline const std::vector<double>& cell_temperature(const Temperature& temperatur
     sum += volumes[q] * values[q];
     volume += volumes[q];
   }
-  if (mesh::first_order(mesh.cells.type[c]) == mesh.cells.type[c]) values.assign(volumes.size(), sum / volume);
+  if (mean) values.assign(volumes.size(), sum / volume);
   return values;
 }
 

@@ -114,6 +114,27 @@ void CellFormulation::add_hoop_forces(const CellGeometry& cell, Eigen::VectorXd&
   }
 }
 
+// f_m: the integral of the modes' gradients times the stress that takes the expansion back.
+Eigen::VectorXd CellFormulation::expansion_of_modes(const CellGeometry& cell, std::span<const double> warmer) const
+{
+  const Eigen::Index n = cell.element().nodes, d = dimension_;
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(d * d);
+  for (std::size_t q = 0; q < warmer.size(); ++q) {
+    const Eigen::Map<const Eigen::MatrixXd> gradient(enriched_.data() + q * static_cast<std::size_t>((n + d) * d), n + d, d);
+    const Tensor stress = tensor(elasticity_.stress(Eigen::Matrix3d::Zero(), -warmer[q], place_of(cell, q)));
+    result.reshaped(d, d) += cell.volumes()[q] * stress.topLeftCorner(d, d) * gradient.bottomRows(d).transpose();
+  }
+  return result;
+}
+
+Eigen::VectorXd CellFormulation::forces_of_modes(const CellGeometry& cell, std::span<const double> warmer)
+{
+  const Eigen::MatrixXd all = enriched_stiffness(cell);
+  const Eigen::Index modes = dimension_ * dimension_;
+  return all.topRightCorner(all.rows() - modes, modes) *
+         dense::solve_symmetric(all.bottomRightCorner(modes, modes), expansion_of_modes(cell, warmer));
+}
+
 void CellFormulation::stiffness(const CellGeometry& cell, std::vector<double>& k)
 {
   const Element& element = cell.element();
@@ -146,7 +167,8 @@ void CellFormulation::stiffness(const CellGeometry& cell, std::vector<double>& k
   }
 }
 
-const std::vector<Eigen::Matrix3d>& CellFormulation::gradients(const CellGeometry& cell, const Eigen::MatrixXd& displacement)
+const std::vector<Eigen::Matrix3d>& CellFormulation::gradients(const CellGeometry& cell, const Eigen::MatrixXd& displacement,
+                                                               std::span<const double> warmer)
 {
   const Eigen::Index n = cell.element().nodes, d = dimension_;
   result_.assign(cell.volumes().size(), Eigen::Matrix3d::Zero());
@@ -162,6 +184,7 @@ const std::vector<Eigen::Matrix3d>& CellFormulation::gradients(const CellGeometr
     const Eigen::MatrixXd all = enriched_stiffness(cell);
     const Eigen::Index modes = d * d;
     Eigen::VectorXd forces = all.bottomLeftCorner(modes, n * d) * displacement.reshaped();
+    forces -= expansion_of_modes(cell, warmer);
     if (cell.axisymmetric()) add_hoop_forces(cell, forces);
     const Eigen::VectorXd amplitudes = -dense::solve_symmetric(all.bottomRightCorner(modes, modes), forces);
     for (std::size_t q = 0; q < result_.size(); ++q) {

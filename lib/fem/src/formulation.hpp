@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "elasticity.hpp"
@@ -26,11 +27,16 @@ class CellFormulation {
   /// K of the cell, (d n) x (d n), column-major, unknown d * node + component.
   void stiffness(const CellGeometry& cell, std::vector<double>& k);
   /// du_i/dx_j at each integration point from nodal displacements, d x n; their symmetric parts are the strains. Across a plane
-  /// bbar gives a strain that only its volume knows; in axisymmetry u_r / r stands there.
-  const std::vector<Eigen::Matrix3d>& gradients(const CellGeometry& cell, const Eigen::MatrixXd& displacement);
+  /// bbar gives a strain that only its volume knows; in axisymmetry u_r / r stands there. `warmer`: degrees at each point, which
+  /// push incompatible modes.
+  const std::vector<Eigen::Matrix3d>& gradients(const CellGeometry& cell, const Eigen::MatrixXd& displacement,
+                                                std::span<const double> warmer);
+  /// What nodes feel of the modes' expansion by these degrees, to be taken from their own: K_nm K_mm^-1 f_m, d n.
+  Eigen::VectorXd forces_of_modes(const CellGeometry& cell, std::span<const double> warmer);
 
  private:
   Eigen::MatrixXd enriched_stiffness(const CellGeometry& cell);
+  Eigen::VectorXd expansion_of_modes(const CellGeometry& cell, std::span<const double> warmer) const;
   void add_hoop_forces(const CellGeometry& cell, Eigen::VectorXd& forces) const;
 
   Formulation formulation_;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "cell_temperature.hpp"
+#include "cell_stress.hpp"
 #include "elasticity.hpp"
 #include "fem/stiffness.hpp"
 #include "geometry.hpp"
@@ -149,10 +149,39 @@ void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, const Mater
       mesh, kinematics, materials, [&acceleration](const Point&) { return acceleration; }, f);
 }
 
-void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
-                   const Temperature& temperature_change, Eigen::VectorXd& f)
+namespace {
+
+// What nodes of cells with incompatible modes feel of the modes' expansion. A constant temperature does not push them.
+template <class Degrees>
+void take_modes(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics, const Degrees& degrees,
+                Eigen::VectorXd& f)
 {
   const int d = dimension(kinematics);
+  const auto elasticity = elasticities(materials, kinematics);
+  std::vector<CellFormulation> with_modes;
+  for (const auto& law : elasticity) with_modes.emplace_back(Formulation::incompatible, law, kinematics);
+  std::vector<double> warmer;
+  CellGeometry cell(kinematics);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    cell.gather(mesh, c);
+    cell.evaluate();
+    degrees(cell, c, warmer);
+    const Eigen::VectorXd forces = with_modes[materials.index(c)].forces_of_modes(cell, warmer);
+    for (int i = 0; i < cell.element().nodes; ++i)
+      f.segment(mesh.cells[c][static_cast<std::size_t>(i)] * d, d) -= forces.segment(i * d, d);
+  }
+}
+
+}  // namespace
+
+void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
+                   const Temperature& temperature_change, Eigen::VectorXd& f, Formulation formulation)
+{
+  const int d = dimension(kinematics);
+  const auto degrees = [&](const CellGeometry& cell, std::size_t c, std::vector<double>& warmer) {
+    cell_temperature(temperature_change, cell, mesh, c, !takes_gradients(mesh.cells.type[c], formulation), warmer);
+  };
+  if (formulation == Formulation::incompatible && temperature_change.varying) take_modes(mesh, materials, kinematics, degrees, f);
   std::vector<double> warmer;
   CellGeometry cell(kinematics);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
@@ -161,7 +190,7 @@ void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematic
       const Elasticity elasticity(material, kinematics);
       cell.gather(mesh, c);
       cell.evaluate();
-      cell_temperature(temperature_change, cell, mesh, c, warmer);
+      degrees(cell, c, warmer);
       for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
         const Point x = place_of(cell, q);
         const Stress stress = warmer[q] * (elasticity.stiffness(x) * elasticity.expansion(x));
@@ -178,7 +207,7 @@ void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematic
     const double modulus = ((kinematics == Kinematics::plane_stress ? 2 : 3) * lambda + 2 * mu) * material.thermal_expansion;
     cell.gather(mesh, c);
     cell.evaluate();
-    cell_temperature(temperature_change, cell, mesh, c, warmer);
+    degrees(cell, c, warmer);
     for (std::size_t q = 0; q < cell.volumes().size(); ++q) {
       const double stress = modulus * warmer[q];
       for (int i = 0; i < cell.element().nodes; ++i) {

@@ -158,16 +158,41 @@ Eigen::VectorXd squared_errors_of_bending(const mesh::Mesh& mesh, const Material
   const auto knows = [](mesh::CellType type) { return applies(Formulation::incompatible, type); };
   if (!std::ranges::all_of(mesh.cells.type, knows)) return result;
   for (const auto& [formulation, sign] : {std::pair(Formulation::standard, 1.0), std::pair(Formulation::incompatible, -1.0)})
-    for_each_cell(mesh, materials, kinematics, formulation, temperature_change, u,
-                  [&](std::size_t c, const CellGeometry& cell, const Stresses& stress, const Elasticity& elasticity) {
-                    for (Eigen::Index q = 0; q < stress.cols(); ++q) {
-                      const auto point = static_cast<std::size_t>(q);
-                      result[static_cast<Eigen::Index>(c)] +=
-                          sign * cell.volumes()[point] *
-                          elasticity.complementary(stress.col(q), place_for(elasticity, cell, point));
-                    }
-                  });
+    for_each_cell(
+        mesh, materials, kinematics, formulation, temperature_change, u,
+        [&](std::size_t c, const CellGeometry& cell, const Stresses& stress, const Elasticity& elasticity) {
+          for (Eigen::Index q = 0; q < stress.cols(); ++q) {
+            const auto point = static_cast<std::size_t>(q);
+            result[static_cast<Eigen::Index>(c)] +=
+                sign * cell.volumes()[point] * elasticity.complementary(stress.col(q), place_for(elasticity, cell, point));
+          }
+        },
+        Formulation::standard);
   return result.cwiseMax(0.0);
+}
+
+Eigen::VectorXd squared_errors_of_temperature(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
+                                              Formulation formulation, const Temperature& temperature_change)
+{
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.cells.size()));
+  if (!temperature_change.varying) return result;
+  const auto elasticity = elasticities(materials, kinematics);
+  CellGeometry cell(kinematics);
+  std::vector<double> warmer, mean;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    if (takes_gradients(mesh.cells.type[c], formulation)) continue;
+    cell.gather(mesh, c);
+    cell.evaluate();
+    cell_temperature(temperature_change, cell, mesh, c, false, warmer);
+    cell_temperature(temperature_change, cell, mesh, c, true, mean);
+    const auto& law = elasticity[materials.index(c)];
+    for (std::size_t q = 0; q < warmer.size(); ++q) {
+      const Point x = place_for(law, cell, q);
+      result[static_cast<Eigen::Index>(c)] +=
+          cell.volumes()[q] * law.complementary(law.stress(Eigen::Matrix3d::Zero(), warmer[q] - mean[q], x), x);
+    }
+  }
+  return result;
 }
 
 }  // namespace mortise::fem

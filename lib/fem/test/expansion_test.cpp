@@ -117,15 +117,15 @@ TEST(Expansion, OfATemperatureThatVaries)
     linear.varying = [](const Point& x) { return strain * (1 + 0.1 * x[0] - 0.2 * x[1]); };
     Eigen::VectorXd f = Eigen::VectorXd::Zero(free_expansion(body).size()), same = f, varied = f;
     add_expansion(mesh, warm_steel(), kinematics, strain, f);
-    add_expansion(mesh, warm_steel(), kinematics, even, same);
+    add_expansion(mesh, warm_steel(), kinematics, even, same, body.formulation);
     EXPECT_LT((f - same).norm(), 1e-13 * f.norm()) << name;
-    // No stress, where no direction is held. Straight cells of second order have the displacement (Boley and Weiner, Theory of
-    // Thermal Stresses, chapter 9) exactly.
+    // No stress, where no direction is held. Straight cells of second order, and bricks and rectangles with incompatible modes,
+    // have the displacement (Boley and Weiner, Theory of Thermal Stresses, chapter 9) exactly.
     if (kinematics == Kinematics::axisymmetric || kinematics == Kinematics::plane_strain ||
-        mesh::first_order(mesh.cells.type[0]) == mesh.cells.type[0])
+        (mesh::first_order(mesh.cells.type[0]) == mesh.cells.type[0] && body.formulation != Formulation::incompatible))
       continue;
     const Block straight(name, {3, 3, 2}, {1, 2, 1.5});
-    add_expansion(straight.mesh, warm_steel(), kinematics, linear, varied);
+    add_expansion(straight.mesh, warm_steel(), kinematics, linear, varied, body.formulation);
     const auto u = sample(straight.mesh, straight.dimension, [](const Point& x) {
       const double b = 0.1 * strain, c = -0.2 * strain;
       return Point(strain * x[0] + b * (x[0] * x[0] - x[1] * x[1] - x[2] * x[2]) / 2 + c * x[0] * x[1],
@@ -138,6 +138,26 @@ TEST(Expansion, OfATemperatureThatVaries)
     const auto field = stresses(straight.mesh, warm_steel(), kinematics, u, body.formulation, linear);
     EXPECT_LT(field.cell_von_mises.cwiseAbs().maxCoeff(), 1e-9 * steel().young_modulus * strain) << name;
   }
+}
+
+// T = y - 1/2 across each of so many layers: 2 E (alpha (y - y_mean))^2 / (1 - nu) a point in plane stress.
+TEST(Expansion, ThatCellsDoNotTakeIsAnError)
+{
+  Temperature across;
+  across.varying = [](const Point& x) { return strain * (x[1] - 0.5); };
+  for (const int layers : {1, 2}) {
+    const Block block("quad4", {3, layers, 1}, {3, 1, 1});
+    const auto lacks = [&](Formulation formulation) {
+      return squared_errors_of_temperature(block.mesh, warm_steel(), Kinematics::plane_stress, formulation, across).sum();
+    };
+    const double expected =
+        3.0 / (12 * layers * layers) * 2 * steel().young_modulus * strain * strain / (1 - steel().poisson_ratio);
+    EXPECT_NEAR(lacks(Formulation::standard), expected, 1e-9 * expected);
+    EXPECT_EQ(lacks(Formulation::incompatible), 0);
+  }
+  const Block second("quad8", {3, 1, 1}, {3, 1, 1});
+  EXPECT_EQ(
+      squared_errors_of_temperature(second.mesh, warm_steel(), Kinematics::plane_stress, Formulation::standard, across).sum(), 0);
 }
 
 TEST(StrainEnergy, IsThatOfTheStiffness)

@@ -21,7 +21,7 @@ std::vector<Eigen::VectorXd> Model::loads(const LoadState& state, const Communic
     for (std::size_t s = 0; s < f.size(); ++s) {
       const auto& subdomain = decomposition_.subdomains[s];
       if (const auto warmer = temperature_change(subdomain, state); warmer.any() && !subdomain.skin)
-        fem::add_expansion(subdomain.mesh, materials(subdomain), deck_.kinematics, warmer, f[s]);
+        fem::add_expansion(subdomain.mesh, materials(subdomain), deck_.kinematics, warmer, f[s], formulation(subdomain));
     }
   });
   for (std::size_t i = 0; i < deck_.loads.size(); ++i) {

@@ -226,7 +226,8 @@ Eigen::VectorXd squared_errors(const ElasticBodies& bodies, std::size_t s, const
     if (!mesh::second_order(mesh.cells.type[c])) squared *= of_linear_shear;
     squared = std::max(squared, along_layer[static_cast<Eigen::Index>(c)]);
   }
-  return result;
+  return result.cwiseMax(
+      fem::squared_errors_of_temperature(mesh, own.materials, bodies.kinematics, own.formulation, own.temperature_change));
 }
 
 Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)

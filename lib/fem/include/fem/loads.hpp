@@ -39,10 +39,10 @@ void add_acceleration(const mesh::Mesh& mesh, Kinematics kinematics, double dens
 /// f_i += integral of B_i' D e over all cells, where e is the thermal expansion times `temperature_change` along every axis, also
 /// across a plane: what a body feels that would expand by it if nothing held it. A temperature that varies is taken at the
 /// integration points, in cells of first order as the mean of the cell: their strains are constant, and a strain that is not
-/// would leave stresses of its own. So every formulation has the same, for mean changes of volume and incompatible modes do not
-/// see a constant stress.
+/// would leave stresses of its own. Not so with incompatible modes, which bend as a temperature makes them that varies across:
+/// their expansion is eliminated as they are.
 void add_expansion(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
-                   const Temperature& temperature_change, Eigen::VectorXd& f);
+                   const Temperature& temperature_change, Eigen::VectorXd& f, Formulation formulation = Formulation::standard);
 
 /// Integrals over the facets of a boundary in this piece, x measured from an origin: far from the boundary, x x' loses it.
 struct Moments {

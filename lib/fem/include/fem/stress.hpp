@@ -64,4 +64,10 @@ Eigen::VectorXd squared_errors(const mesh::Mesh& mesh, const Materials& material
 Eigen::VectorXd squared_errors_of_bending(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
                                           const Eigen::VectorXd& u, const Temperature& temperature_change = {});
 
+/// For each cell the squared energy norm of the expansion that its formulation does not take, what a temperature that varies in
+/// it differs from its mean by; see add_expansion(). A layer of cells that would bend by it stays straight, and has no stress
+/// that shows it.
+Eigen::VectorXd squared_errors_of_temperature(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
+                                              Formulation formulation, const Temperature& temperature_change);
+
 }  // namespace mortise::fem
