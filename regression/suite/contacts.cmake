@@ -110,6 +110,8 @@ foreach(deck warned_slide warned_crush warned_size bonded_tension)
   mortise_regression(${deck} RANKS 1 STUDY_RANKS 2 3)
 endforeach()
 mortise_regression(rolled_roller RANKS 1 STUDY_RANKS 2 3)
+mortise_regression(rolled_roller VARIANT .hardly RANKS 1 EXPECTED cases/rolled_roller.hardly.expected.json
+                   SET supports[1].displacement.x=0.06)
 mortise_regression(rolled_roller VARIANT .pressed RANKS 2 STUDY_RANKS 1 EXPECTED cases/rolled_roller.pressed.expected.json
                    SET "supports=[{name: base, boundary: bottom, displacement: {x: 0, y: 0}}, {name: drive, boundary: top, displacement: {x: 0.3}}]"
                        "loads=[{boundary: top, pressure: 26.28}]")
