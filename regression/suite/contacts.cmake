@@ -41,6 +41,13 @@ mortise_regression(twisted_bar RANKS 1 STUDY_RANKS 2 3)
 foreach(element hex8 hex27 prism15 tet10)
   mortise_regression(twisted_bar VARIANT .${element} SET mesh.blocks.bar.element=${element} EXPECTED cases/twisted_bar.expected.json RANKS 1)
 endforeach()
+mortise_regression(bond_held_alike RANKS 1 2 STUDY_RANKS 3)
+foreach(element hex20 tet10 prism6)
+  mortise_regression(bond_held_alike VARIANT .${element} EXPECTED cases/bond_held_alike.expected.json RANKS 1
+                     SET mesh.blocks.lower.element=${element} mesh.blocks.upper.element=${element})
+endforeach()
+mortise_regression(bond_held_alike VARIANT .swapped EXPECTED cases/bond_held_alike.expected.json RANKS 1
+                   SET mesh.blocks.lower.element=tet10 mesh.blocks.upper.element=hex20 contacts[0].secondary=upper.zmin contacts[0].primary=lower.zmax)
 mortise_regression(bond_matched RANKS 1 3)
 mortise_regression(bond_matched VARIANT .swapped EXPECTED cases/bond_matched.expected.json RANKS 1
   SET contacts[0].secondary=upper_joint contacts[0].primary=lower_joint)

@@ -174,6 +174,18 @@ void PieceStore::add(const PieceIntegrals& piece)
   nodes_.insert(nodes_.end(), piece.nodes.begin(), piece.nodes.end());
 }
 
+void PieceStore::add(const View& piece)
+{
+  shapes_.push_back({piece.facet, piece.dual, !piece.point_facet.empty(), piece.plane.rows() > 0, !piece.corner.empty(),
+                     static_cast<int>(piece.mass.rows()), static_cast<int>(piece.mass.cols()), values_.size(), nodes_.size()});
+  const auto put = [&](const auto& matrix) { values_.insert(values_.end(), matrix.data(), matrix.data() + matrix.size()); };
+  for (const auto& matrix : {piece.mass, piece.gram, piece.points, piece.plane}) put(matrix);
+  for (const auto& vector : {piece.covered, piece.whole, piece.rise}) put(vector);
+  put(piece.opposite);
+  for (const auto& nodes : {piece.point_facet, piece.corner, piece.beside, piece.nodes})
+    nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
+}
+
 PieceStore::View PieceStore::operator[](std::size_t i)
 {
   const auto& shape = shapes_[i];

@@ -81,6 +81,8 @@ class PieceStore {
   };
 
   void add(const PieceIntegrals& piece);
+  /// A copy of a piece of another store.
+  void add(const View& piece);
   std::size_t size() const { return shapes_.size(); }
   View operator[](std::size_t i);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
 #include "gaps/one_surface.hpp"
@@ -15,6 +16,7 @@
 #include "rows/one_part.hpp"
 #include "rows/opposite_supports.hpp"
 #include "rows/rows.hpp"
+#include "rows/shares_beside_supports.hpp"
 
 namespace mortise::contact {
 
@@ -57,7 +59,9 @@ class ContactRows {
       for (std::size_t p = 0; p < s_.nodes.all.size(); ++p)
         if (const auto& n = s_.nodes.all[p].normal; own(p) && chosen_.shared[p])
           contacts.without_rows.push_back({s_.index, s_.node_of(p), {n[0], n[1], n[2]}, node_opposite(p)});
+    given_ = shares_beside_supports();
     s_.discretization->make_functions(chosen_.kept);
+    shares_ = given_.differences(s_.faces);
     s_.faces.sort_by_nodes();
     for (std::size_t p = 0; p < s_.faces.places(); ++p)
       if (own(p) && chosen_.kept[p]) add_contact_node(p, contacts);
@@ -89,6 +93,24 @@ class ContactRows {
   bool bonded() const { return s_.bonded(); }
   const Options& options() const { return s_.options; }
   bool ends_together() const { return options().preload || options().cyclic || options().obstacle; }
+
+  // Of a bond both of whose sides supports hold, each by itself.
+  SharesBesideSupports shares_beside_supports()
+  {
+    if (!bonded() || options().obstacle || options().cyclic || !s_.discretization->others_take_over()) return {};
+    if (s_.supports.empty() || s_.primary_supports.empty()) return {};
+    return {s_.secondary,
+            s_.nodes,
+            s_.faces,
+            s_.supports,
+            chosen_.kept,
+            [&](std::size_t p, const Point& axis) {
+              const Opposite& opposite = s_.rays.meet(p);
+              return !matches(p) && std::isfinite(opposite.gap) && opposite_supports_.prescribe(opposite, axis);
+            },
+            s_.dimension};
+  }
+  bool matches(std::size_t p) const { return !matches_.empty() && matches_[p]; }
 
   std::optional<BondedNodes> bonded_nodes(const OthersNodes& others)
   {
@@ -199,7 +221,8 @@ class ContactRows {
     const auto [at, own_normal] = points_.at(p);
     const Point across = bonded() ? node_here.normal : s_.rays.direction(s_.faces.surface_node(p), at, own_normal);
     if (bonded() && !options().preload) conflicts_.note_tear(terms_, d, across);
-    const auto bond = bonded() ? bond_directions(writer_, terms_, across, freedom_of_primary(p), s_.dimension) : std::nullopt;
+    auto bond = bonded() ? bond_directions(writer_, terms_, across, freedom_of_primary(p), s_.dimension) : std::nullopt;
+    if (bond) bond->normal = given_.rest_of(s_.faces.surface_node(p), bond->normal);
     const bool prescribed = !writer_.moves(terms_, d, bond ? bond->normal : across);  // on both sides
     const Point& normal = bond ? bond->normal : across;
     constraint::ContactNode node{
@@ -225,13 +248,14 @@ class ContactRows {
     if (!bonded() && (prescribed || writer_.part_that_moves(terms_, d, normal) < hardly_moves))
       conflicts_.note_crossing(terms_, d, normal, node.gap, chosen_.directions[p], prescribed && chosen_.stranded[p]);
     if (prescribed) return;
-    write(node, d, Moments::across(bonded() ? 0 : mesh_gap, normal, own_normal), points_.moved(p) ? &at : nullptr, contacts);
+    write(p, node, d, Moments::across(bonded() ? 0 : mesh_gap, normal, own_normal), points_.moved(p) ? &at : nullptr, contacts);
     for (const auto& tangent : prescribed_tangents) {
       writer_.add_prescribed(terms_, d, tangent, contacts);
       node.tangents.push_back(tangent);
     }
     for (const auto& tangent : bond ? bond->of_primary : Few<Point, 2>()) {
-      writer_.add(terms_, d, tangent, 0, contacts);
+      if (given_.gives(s_.faces.surface_node(p), tangent)) continue;
+      writer_.add(terms_, d, tangent, 0, contacts, couples_of(p, d, tangent));
       node.tangents.push_back(tangent);
     }
     between_.note(node, points_.means_field(p), terms_, d, s_.secondary, s_.primary);
@@ -277,17 +301,41 @@ class ContactRows {
   }
 
   // The rows along the normal and the tangents, with the moments that these pass on.
-  void write(const constraint::ContactNode& node, double d, const Point& closing, const Point* moved,
+  void write(std::size_t p, const constraint::ContactNode& node, double d, const Point& closing, const Point* moved,
              constraint::Contacts& contacts)
   {
     if (s_.axisymmetric) {  // rings do not turn
-      writer_.add(terms_, d, node.normal, constraint::bound_of(node), contacts);
-      for (const auto& tangent : node.tangents) writer_.add(terms_, d, tangent, 0, contacts);
+      writer_.add(terms_, d, node.normal, constraint::bound_of(node), contacts, couples_of(p, d, node.normal));
+      for (const auto& tangent : node.tangents) writer_.add(terms_, d, tangent, 0, contacts, couples_of(p, d, tangent));
       return;
     }
     const Moments moments(terms_, d, node.normal, closing, moved, s_.secondary, s_.primary, s_.dimension);
-    writer_.add(terms_, d, node.normal, constraint::bound_of(node), contacts);
-    for (const auto& tangent : node.tangents) writer_.add(terms_, d, tangent, 0, contacts, moments.couple(tangent), node.normal);
+    writer_.add(terms_, d, node.normal, constraint::bound_of(node), contacts, couples_of(p, d, node.normal));
+    for (const auto& tangent : node.tangents) {
+      const auto couple = moments.couple(tangent);
+      auto couples = couples_of(p, d, tangent);
+      if (!couple.empty()) couples.push_back({couple, node.normal});
+      writer_.add(terms_, d, tangent, 0, contacts, couples);
+    }
+  }
+
+  // What others leave to a node's row along a direction.
+  std::vector<RowWriter::Couple> couples_of(std::size_t p, double d, const Point& direction)
+  {
+    constexpr double nothing = 1e-9;
+    std::vector<RowWriter::Couple> result;
+    const auto found = shares_.find(p);
+    if (found == shares_.end()) return result;
+    left_.clear();
+    left_.reserve(found->second.size());
+    for (const auto& [axis, terms] : found->second) {
+      const double part = direction.dot(axis);
+      if (std::abs(part) < nothing) continue;
+      auto& mine = left_.emplace_back(terms);
+      for (auto& term : mine) term.value *= part / d;
+      result.push_back({mine, axis});
+    }
+    return result;
   }
 
   // Part of the row: that of the side of which supports hold less.
@@ -359,8 +407,11 @@ class ContactRows {
   const std::vector<char> on_both_sides_;  // see nodes_of_both_sides()
   const bool ends_meet_;                   // some nodes are
   const ContactNodes chosen_;
-  std::optional<OnePart> one_part_;  // once one is asked
-  std::vector<Term> terms_;          // of the surface node at work
+  std::optional<OnePart> one_part_;                                                   // once one is asked
+  SharesBesideSupports given_;                                                        // once functions are made
+  std::unordered_map<std::size_t, std::vector<SharesBesideSupports::Share>> shares_;  // what comes of it
+  std::vector<Term> terms_;                                                           // of the surface node at work
+  std::vector<std::vector<Term>> left_;                                               // to it by others
 };
 
 }  // namespace

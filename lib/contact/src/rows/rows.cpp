@@ -241,16 +241,14 @@ constraint::PrescribedEntry RowWriter::entry_of(std::size_t row, const Coefficie
 }
 
 void RowWriter::add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts,
-                    std::span<const Term> couple, const Point& couple_axis)
+                    std::span<const Couple> couples)
 {
   const auto row = contacts.rows.size();
   take_skew_supports(terms, d, axis, bound, contacts);
-  take_skew_supports(couple, 1, couple_axis, bound, contacts);
+  for (const auto& couple : couples) take_skew_supports(couple.terms, 1, couple.axis, bound, contacts);
   coefficients(terms, d, axis);
-  if (!couple.empty()) {
-    append_coefficients(couple, 1, couple_axis);
-    merge();
-  }
+  for (const auto& couple : couples) append_coefficients(couple.terms, 1, couple.axis);
+  if (std::ranges::any_of(couples, [](const Couple& couple) { return !couple.terms.empty(); })) merge();
   for (const auto& c : coefficients_) {
     if (c.prescribed) {
       bound -= c.value * c.prescribed->value;

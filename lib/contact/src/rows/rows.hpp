@@ -65,9 +65,14 @@ class RowWriter {
   Few<Point, 3> free_on_primary(std::span<const Term> terms, std::span<const Point> among, double least) const;
   /// What supports contribute to the row.
   double prescribed_part(std::span<const Term> terms, double d, const Point& axis);
-  /// Appends the row <= bound, without what supports hold. `couple`: what comes to it along another axis.
+  /// What comes to a row along another axis.
+  struct Couple {
+    std::span<const Term> terms;
+    Point axis;
+  };
+  /// Appends the row <= bound, without what supports hold, with what comes to it besides.
   void add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts,
-           std::span<const Term> couple = {}, const Point& couple_axis = Point::Zero());
+           std::span<const Couple> couples = {});
   /// Whether supports hold more than a tenth of each side along an axis: enough to bear what rubs there.
   bool prescribed_on_both_sides(std::span<const Term> terms, const Point& axis) const;
   /// Appends a row along which nothing moves but supports, so that what they make of it stands in its bound, or hardly anything:

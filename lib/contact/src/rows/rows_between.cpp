@@ -247,13 +247,15 @@ void RowsBetween::add_to(constraint::Contacts& contacts, const SupportDirectory&
         if (writer.prescribed_on_both_sides(terms, tangent)) fixed.push_back(tangent);
     }
     const bool rings = setting.kinematics == fem::Kinematics::axisymmetric;  // these do not turn
-    const Moments moments =
-        rings ? Moments()
-              : Moments(terms, 1, node.normal, Moments::across(gap.mesh, node.normal, gap.own_normal), &place.at, secondary,
-                        primary, dimension);
+    const Moments moments = rings ? Moments()
+                                  : Moments(terms, 1, node.normal, Moments::across(gap.mesh, node.normal, gap.own_normal),
+                                            &place.at, secondary, primary, dimension);
     writer.add(terms, 1, node.normal, node.gap, contacts);
-    for (const auto& tangent : node.tangents)
-      writer.add(terms, 1, tangent, 0, contacts, rings ? std::vector<Term>() : moments.couple(tangent), node.normal);
+    for (const auto& tangent : node.tangents) {
+      const auto couple = rings ? std::vector<Term>() : moments.couple(tangent);
+      const std::array couples{RowWriter::Couple{couple, node.normal}};
+      writer.add(terms, 1, tangent, 0, contacts, couples);
+    }
     for (const auto& tangent : fixed) {
       writer.add_prescribed(terms, 1, tangent, contacts);
       node.tangents.push_back(tangent);

@@ -1,0 +1,62 @@
+// Bonds on planes of symmetry and other supports that hold both sides. Where they hold a node of the secondary side and what lies
+// opposite along a direction a, as at an edge that both sides end at, it has no row along a. Its function also covers nodes of
+// the primary side that do move, which would lack its share of the traction: along a the others of its faces take over, with
+// functions psi^a whose sum is 1 and which are dual among them, as everywhere for nodes without multipliers [cf. the crosspoints
+// of Wohlmuth, SIAM J. Numer. Anal. 38 (2000)]. Their rows along t become
+//
+//     integral psi t . [u]  +  (t . a) integral (psi^a - psi) a . [u].
+//
+// Where primary and secondary nodes lie opposite each other nothing is left to take over.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "integrals/cut_faces.hpp"
+#include "integrals/face_integrals.hpp"
+#include "rows/supported_nodes.hpp"
+#include "search/small.hpp"
+
+namespace mortise::contact {
+
+class SharesBesideSupports {
+ public:
+  /// Nothing is shared.
+  SharesBesideSupports() = default;
+  /// Whether supports hold what lies opposite a surface node along a direction.
+  using HeldOpposite = std::function<bool(std::size_t p, const Point& axis)>;
+  /// `faces` with their integrals, which become functions of the places that are `kept` later; that makes differences() ready.
+  SharesBesideSupports(const Side& secondary, const SurfaceNodes& nodes, CutFaces& faces, const SupportedNodes& supports,
+                       std::span<const char> kept, const HeldOpposite& held_opposite, int dimension);
+
+  /// Whether a surface node leaves its share along a direction to others.
+  bool gives(std::size_t p, const Point& direction) const;
+  /// The unit vector along what a direction has besides those.
+  Point rest_of(std::size_t p, Point direction) const;
+
+  /// What others leave to a place along an axis: integrals of psi^a - psi, as terms.
+  struct Share {
+    Point axis;
+    std::vector<Term> terms;
+  };
+  /// Once the faces have their functions. Returns those of each place that gets something.
+  std::unordered_map<std::size_t, std::vector<Share>> differences(CutFaces& faces);
+
+ private:
+  using Axes = Few<Point, 3>;
+  // A piece whose functions along an axis are others.
+  struct Other {
+    std::size_t face, piece, copy;  // in other_
+    Point axis;
+  };
+  Axes axes_of(std::size_t face, const CutFaces& faces) const;
+
+  const Side* secondary_ = nullptr;
+  std::vector<Axes> given_;  // of each surface node; orthonormal
+  PieceStore other_;
+  std::vector<Other> others_;
+};
+
+}  // namespace mortise::contact
