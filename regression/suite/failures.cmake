@@ -45,6 +45,10 @@ mortise_regression(pushed_in_groove DIRECTORY must_fail RANKS 1)
 foreach(deck slipping_clutch pulled_plug)
   mortise_regression(${deck} DIRECTORY must_fail RANKS 1 STUDY_RANKS 2)
 endforeach()
+mortise_regression(shaft_in_vee DIRECTORY must_fail RANKS 1 STUDY_RANKS 2 3)
+mortise_regression(shaft_in_vee VARIANT .first_order DIRECTORY must_fail RANKS 1 SET mesh.order=1 mesh.constants.n=36)
+mortise_regression(shaft_in_vee VARIANT .holds DIRECTORY must_fail RANKS 1 EXPECTED must_fail/shaft_in_vee.holds.expected.json
+                   SET "loads[1].moment=[0, 0, 269.2]")
 # With twice what friction holds: the ball turns until tilts of rounding wedge it.
 set(pushed "loads[0].force=[260, 0, -1000]" "contacts[0].friction={coulomb: 0.2}")
 mortise_regression(ball_in_cup VARIANT .friction DIRECTORY must_fail RANKS 2 STUDY_RANKS 1 SET ${pushed})

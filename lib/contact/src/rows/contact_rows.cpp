@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 
 #include "gaps/one_surface.hpp"
@@ -61,7 +60,7 @@ class ContactRows {
           contacts.without_rows.push_back({s_.index, s_.node_of(p), {n[0], n[1], n[2]}, node_opposite(p)});
     given_ = shares_beside_supports();
     s_.discretization->make_functions(chosen_.kept);
-    shares_ = given_.differences(s_.faces);
+    given_.take_functions(s_.faces);
     s_.faces.sort_by_nodes();
     for (std::size_t p = 0; p < s_.faces.places(); ++p)
       if (own(p) && chosen_.kept[p]) add_contact_node(p, contacts);
@@ -97,20 +96,14 @@ class ContactRows {
   // Of a bond both of whose sides supports hold, each by itself.
   SharesBesideSupports shares_beside_supports()
   {
-    if (!bonded() || options().obstacle || options().cyclic || !s_.discretization->others_take_over()) return {};
-    if (s_.supports.empty() || s_.primary_supports.empty()) return {};
-    return {s_.secondary,
-            s_.nodes,
-            s_.faces,
-            s_.supports,
-            chosen_.kept,
-            [&](std::size_t p, const Point& axis) {
-              const Opposite& opposite = s_.rays.meet(p);
-              return !matches(p) && std::isfinite(opposite.gap) && opposite_supports_.prescribe(opposite, axis);
-            },
-            s_.dimension};
+    const bool alone = options().obstacle || options().cyclic || !s_.discretization->others_take_over();
+    if (!bonded() || alone || s_.supports.empty() || s_.primary_supports.empty()) return {};
+    const auto held_opposite = [&](std::size_t p, const Point& axis) {
+      const Opposite& opposite = s_.rays.meet(p);
+      return !matches_[p] && std::isfinite(opposite.gap) && opposite_supports_.prescribe(opposite, axis);
+    };
+    return {s_.secondary, s_.nodes, s_.faces, s_.supports, chosen_.kept, held_opposite, s_.dimension};
   }
-  bool matches(std::size_t p) const { return !matches_.empty() && matches_[p]; }
 
   std::optional<BondedNodes> bonded_nodes(const OthersNodes& others)
   {
@@ -255,7 +248,7 @@ class ContactRows {
     }
     for (const auto& tangent : bond ? bond->of_primary : Few<Point, 2>()) {
       if (given_.gives(s_.faces.surface_node(p), tangent)) continue;
-      writer_.add(terms_, d, tangent, 0, contacts, couples_of(p, d, tangent));
+      writer_.add(terms_, d, tangent, 0, contacts, given_.to(p, d, tangent));
       node.tangents.push_back(tangent);
     }
     between_.note(node, points_.means_field(p), terms_, d, s_.secondary, s_.primary);
@@ -305,37 +298,18 @@ class ContactRows {
              constraint::Contacts& contacts)
   {
     if (s_.axisymmetric) {  // rings do not turn
-      writer_.add(terms_, d, node.normal, constraint::bound_of(node), contacts, couples_of(p, d, node.normal));
-      for (const auto& tangent : node.tangents) writer_.add(terms_, d, tangent, 0, contacts, couples_of(p, d, tangent));
+      writer_.add(terms_, d, node.normal, constraint::bound_of(node), contacts, given_.to(p, d, node.normal));
+      for (const auto& tangent : node.tangents) writer_.add(terms_, d, tangent, 0, contacts, given_.to(p, d, tangent));
       return;
     }
     const Moments moments(terms_, d, node.normal, closing, moved, s_.secondary, s_.primary, s_.dimension);
-    writer_.add(terms_, d, node.normal, constraint::bound_of(node), contacts, couples_of(p, d, node.normal));
+    writer_.add(terms_, d, node.normal, constraint::bound_of(node), contacts, given_.to(p, d, node.normal));
     for (const auto& tangent : node.tangents) {
       const auto couple = moments.couple(tangent);
-      auto couples = couples_of(p, d, tangent);
+      auto couples = given_.to(p, d, tangent);
       if (!couple.empty()) couples.push_back({couple, node.normal});
       writer_.add(terms_, d, tangent, 0, contacts, couples);
     }
-  }
-
-  // What others leave to a node's row along a direction.
-  std::vector<RowWriter::Couple> couples_of(std::size_t p, double d, const Point& direction)
-  {
-    constexpr double nothing = 1e-9;
-    std::vector<RowWriter::Couple> result;
-    const auto found = shares_.find(p);
-    if (found == shares_.end()) return result;
-    left_.clear();
-    left_.reserve(found->second.size());
-    for (const auto& [axis, terms] : found->second) {
-      const double part = direction.dot(axis);
-      if (std::abs(part) < nothing) continue;
-      auto& mine = left_.emplace_back(terms);
-      for (auto& term : mine) term.value *= part / d;
-      result.push_back({mine, axis});
-    }
-    return result;
   }
 
   // Part of the row: that of the side of which supports hold less.
@@ -407,11 +381,9 @@ class ContactRows {
   const std::vector<char> on_both_sides_;  // see nodes_of_both_sides()
   const bool ends_meet_;                   // some nodes are
   const ContactNodes chosen_;
-  std::optional<OnePart> one_part_;                                                   // once one is asked
-  SharesBesideSupports given_;                                                        // once functions are made
-  std::unordered_map<std::size_t, std::vector<SharesBesideSupports::Share>> shares_;  // what comes of it
-  std::vector<Term> terms_;                                                           // of the surface node at work
-  std::vector<std::vector<Term>> left_;                                               // to it by others
+  std::optional<OnePart> one_part_;  // once one is asked
+  SharesBesideSupports given_;
+  std::vector<Term> terms_;  // of the surface node at work
 };
 
 }  // namespace

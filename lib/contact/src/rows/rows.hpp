@@ -16,11 +16,11 @@ namespace mortise::contact {
 /// One term a node, summed in the order that they come in.
 void merge_terms(std::vector<Term>& terms);
 
-/// The rows sum_k value_k / d axis . u(node_k) of a contact.
 /// Orthonormal directions in the span of the orthonormal `among` of which the symmetric `part` holds more than `least`, ascending
 /// in that.
 Few<Point, 3> directions_of_most(const Eigen::Matrix3d& part, std::span<const Point> among, double least);
 
+/// The rows sum_k value_k / d axis . u(node_k) of a contact.
 class RowWriter {
  public:
   /// All of which must outlive it. `rotation`: the primary side is rotated before it meets the secondary one, and so are its

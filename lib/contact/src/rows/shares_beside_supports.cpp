@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rows/rows.hpp"
-
 namespace mortise::contact {
 
 namespace {
 
-constexpr double alike = 1e-3;       // sine between directions that count as one
+constexpr double alike = 1e-3;      // sine between directions that count as one
 constexpr double in_surface = 0.7;  // of a direction along the normal
 
 bool same(const Point& a, const Point& b)
@@ -103,15 +101,14 @@ SharesBesideSupports::Axes SharesBesideSupports::axes_of(std::size_t face, const
   return result;
 }
 
-std::unordered_map<std::size_t, std::vector<SharesBesideSupports::Share>> SharesBesideSupports::differences(CutFaces& faces)
+void SharesBesideSupports::take_functions(CutFaces& faces)
 {
-  std::unordered_map<std::size_t, std::vector<Share>> result;
   for (const auto& other : others_) {
     const auto now = faces.piece(other.piece), then = other_[other.copy];
     const auto nodes = secondary_->faces[other.face];
     for (Eigen::Index k = 0; k < then.covered.size(); ++k) {
       if (!(then.covered[k] > 0)) continue;  // of nobody who takes
-      auto& shares = result[faces.place_of(other.face, now, k)];
+      auto& shares = shares_[faces.place_of(other.face, now, k)];
       auto found = std::ranges::find_if(shares, [&](const Share& share) { return same(share.axis, other.axis); });
       if (found == shares.end()) found = shares.insert(shares.end(), {other.axis, {}});
       const auto add = [&](Local node, bool on_primary, double value) {
@@ -127,8 +124,25 @@ std::unordered_map<std::size_t, std::vector<SharesBesideSupports::Share>> Shares
       }
     }
   }
-  for (auto& [place, shares] : result)
+  for (auto& [place, shares] : shares_)
     for (auto& share : shares) merge_terms(share.terms);
+}
+
+std::vector<RowWriter::Couple> SharesBesideSupports::to(std::size_t place, double d, const Point& direction)
+{
+  constexpr double nothing = 1e-9;
+  std::vector<RowWriter::Couple> result;
+  const auto found = shares_.find(place);
+  if (found == shares_.end()) return result;
+  handed_.clear();
+  handed_.reserve(found->second.size());
+  for (const auto& [axis, terms] : found->second) {
+    const double part = direction.dot(axis);
+    if (std::abs(part) < nothing) continue;
+    auto& mine = handed_.emplace_back(terms);
+    for (auto& term : mine) term.value *= part / d;
+    result.push_back({mine, axis});
+  }
   return result;
 }
 

@@ -16,6 +16,7 @@
 
 #include "integrals/cut_faces.hpp"
 #include "integrals/face_integrals.hpp"
+#include "rows/rows.hpp"
 #include "rows/supported_nodes.hpp"
 #include "search/small.hpp"
 
@@ -27,7 +28,7 @@ class SharesBesideSupports {
   SharesBesideSupports() = default;
   /// Whether supports hold what lies opposite a surface node along a direction.
   using HeldOpposite = std::function<bool(std::size_t p, const Point& axis)>;
-  /// `faces` with their integrals, which become functions of the places that are `kept` later; that makes differences() ready.
+  /// `faces` with their integrals, which become functions of the places that are `kept` later.
   SharesBesideSupports(const Side& secondary, const SurfaceNodes& nodes, CutFaces& faces, const SupportedNodes& supports,
                        std::span<const char> kept, const HeldOpposite& held_opposite, int dimension);
 
@@ -36,13 +37,10 @@ class SharesBesideSupports {
   /// The unit vector along what a direction has besides those.
   Point rest_of(std::size_t p, Point direction) const;
 
-  /// What others leave to a place along an axis: integrals of psi^a - psi, as terms.
-  struct Share {
-    Point axis;
-    std::vector<Term> terms;
-  };
-  /// Once the faces have their functions. Returns those of each place that gets something.
-  std::unordered_map<std::size_t, std::vector<Share>> differences(CutFaces& faces);
+  /// Once the faces have their functions.
+  void take_functions(CutFaces& faces);
+  /// What others leave to a place's row along a direction, where D is `d`. Valid until the next call.
+  std::vector<RowWriter::Couple> to(std::size_t place, double d, const Point& direction);
 
  private:
   using Axes = Few<Point, 3>;
@@ -57,6 +55,13 @@ class SharesBesideSupports {
   std::vector<Axes> given_;  // of each surface node; orthonormal
   PieceStore other_;
   std::vector<Other> others_;
+  // Integrals of psi^a - psi, as terms.
+  struct Share {
+    Point axis;
+    std::vector<Term> terms;
+  };
+  std::unordered_map<std::size_t, std::vector<Share>> shares_;  // of places that get something
+  std::vector<std::vector<Term>> handed_;                       // to the row at work
 };
 
 }  // namespace mortise::contact

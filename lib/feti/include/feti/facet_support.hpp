@@ -18,7 +18,8 @@ namespace mortise::feti {
 /// e.v the work of the loads, t_i the tangential rows of a contact node, r_i the bound of its force. Where normals of the mesh do
 /// work on v, a solution may exceed this: the ring turns until facets stop it. Such motions are looked for of each body, of
 /// bodies that bonds join, and of bodies that sticking nodes join; what all normals of a contact feel alike (a taper) is no
-/// facet. It is no equilibrium either where all that rubs slid along such a motion by a tenth of the bodies' size: friction does
+/// facet. Nor do normals of flat bodies support what is round and turns on them: pressure moves along with the turn until its
+/// lever makes up for what friction lacks, as long as displacements are linear. It is no equilibrium either where all that rubs slid along such a motion by a tenth of the bodies' size: friction does
 /// not grow with the way, so it holds there by the forces of facets (a ball in its cup turns until tilts of 1e-6 have wedged it)
 /// or by turns that are no longer small (a ladder slips until its round ends have shortened its weight's lever).
 ///
