@@ -345,6 +345,7 @@ std::vector<Warning> check_model(const model::Model& model, const Rows& rows, co
   append(result, coarser_than_asked(model, comm));
   append(result, unconnected_faces(model, comm));
   append(result, uncovered_temperatures(model, comm));
+  append(result, post::folded_cells(model.decomposition(), comm));
   return result;
 }
 

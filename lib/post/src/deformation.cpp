@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "fem/element.hpp"
 #include "mesh/shape_functions.hpp"
@@ -14,8 +15,9 @@ namespace mortise::post {
 
 namespace {
 
-constexpr double large = 0.05;   // of a body's size
-constexpr int most_places = 64;  // nodes and integration points of a cell
+constexpr double large = 0.05;       // of a body's size
+constexpr int most_places = 64;      // nodes and integration points of a cell
+constexpr double of_largest = 1e-6;  // of the largest det of a cell: rounding of none, as where a brick is collapsed
 
 // Gradients of the shape functions at the nodes and at the integration points.
 const std::vector<Eigen::MatrixXd>& gradients(mesh::CellType type)
@@ -48,16 +50,38 @@ double jacobian(const Eigen::MatrixXd& x, const Eigen::MatrixXd& gradient)
   return result.determinant();
 }
 
+// Det of dx / dxi at each place of a table.
+template <int d>
+std::span<double> jacobians(const Eigen::MatrixXd& x, const std::vector<Eigen::MatrixXd>& tables,
+                            std::array<double, most_places>& values)
+{
+  for (std::size_t i = 0; i < tables.size(); ++i) values[i] = jacobian<d>(x, tables[i]);
+  return std::span(values).first(tables.size());
+}
+
+// The nodes of a cell, as columns.
+void place_nodes(const mesh::Mesh& mesh, std::size_t cell, int dimension, Eigen::MatrixXd& x)
+{
+  const auto nodes = mesh.cells[cell];
+  x.resize(dimension, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    x.col(static_cast<Eigen::Index>(i)) = mesh.points[static_cast<std::size_t>(nodes[i])].head(dimension);
+}
+
+Point centre(const Eigen::MatrixXd& x)
+{
+  Point result = Point::Zero();
+  result.head(x.rows()) = x.rowwise().mean();
+  return result;
+}
+
 // The smallest det of the deformed cell over that of the undeformed one, where that is not collapsed.
 template <int d>
 double least_volume_ratio(const Eigen::MatrixXd& x, const Eigen::MatrixXd& deformed, const std::vector<Eigen::MatrixXd>& tables)
 {
-  std::array<double, most_places> before, after;  // on the stack: this is asked for each cell
-  for (std::size_t i = 0; i < tables.size(); ++i) {
-    before[i] = jacobian<d>(x, tables[i]);
-    after[i] = jacobian<d>(deformed, tables[i]);
-  }
-  const double collapsed = 1e-6 * std::max(*std::max_element(before.begin(), before.begin() + tables.size()), 0.0);
+  std::array<double, most_places> values, others;  // on the stack: this is asked for each cell
+  const auto before = jacobians<d>(x, tables, values), after = jacobians<d>(deformed, tables, others);
+  const double collapsed = of_largest * std::max(*std::ranges::max_element(before), 0.0);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < tables.size(); ++i)
     if (before[i] > collapsed) least = std::min(least, after[i] / before[i]);
@@ -107,21 +131,16 @@ std::vector<Warning> inverted_cells(const partition::Decomposition& decompositio
     Eigen::MatrixXd x, deformed;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
       const auto nodes = mesh.cells[c];
-      x.resize(dimension, static_cast<Eigen::Index>(nodes.size()));
-      deformed.resize(dimension, x.cols());
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const auto at = static_cast<Eigen::Index>(i);
-        x.col(at) = mesh.points[static_cast<std::size_t>(nodes[i])].head(dimension);
-        deformed.col(at) = x.col(at) + displacement[s].segment(nodes[i] * dimension, dimension);
-      }
+      place_nodes(mesh, c, dimension, x);
+      deformed = x;
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        deformed.col(static_cast<Eigen::Index>(i)) += displacement[s].segment(nodes[i] * dimension, dimension);
       const auto& tables = gradients(mesh.cells.type[c]);
       const double ratio =
           dimension == 2 ? least_volume_ratio<2>(x, deformed, tables) : least_volume_ratio<3>(x, deformed, tables);
       if (ratio > 0) continue;
       ++count;
-      Point centre = Point::Zero();
-      centre.head(dimension) = x.rowwise().mean();
-      found[static_cast<std::size_t>(decomposition.subdomains[s].body)].take(-ratio, centre);
+      found[static_cast<std::size_t>(decomposition.subdomains[s].body)].take(-ratio, centre(x));
     }
   }
   count = comm.sum(count);
@@ -149,6 +168,40 @@ std::vector<Warning> inverted_cells(const partition::Decomposition& decompositio
     std::erase_if(result, [&](const Warning& w) { return w.body != name; });
   }
   return result;
+}
+
+std::vector<Warning> folded_cells(const partition::Decomposition& decomposition, const Communicator& comm)
+{
+  const int dimension = decomposition.catalogue.dimension;
+  Found found{0};  // minus the least part of the largest det of a cell
+  long long count = 0;
+  Eigen::MatrixXd x;
+  std::array<double, most_places> values;
+  for (const auto& subdomain : decomposition.subdomains) {
+    if (subdomain.skin) continue;
+    for (std::size_t c = 0; c < subdomain.mesh.cells.size(); ++c) {
+      place_nodes(subdomain.mesh, c, dimension, x);
+      const auto& tables = gradients(subdomain.mesh.cells.type[c]);
+      const auto volumes = dimension == 2 ? jacobians<2>(x, tables, values) : jacobians<3>(x, tables, values);
+      const auto [least, most] = std::ranges::minmax(volumes);
+      if (least >= -of_largest * most) continue;
+      ++count;
+      found.take(-least / most, centre(x), subdomain.body);
+    }
+  }
+  count = comm.sum(count);
+  found = largest_of_ranks({found}, comm).front();
+  if (count == 0) return {};
+  const auto& name = decomposition.catalogue.bodies[static_cast<std::size_t>(found.body)].name;
+  Warning w{"folded_cells",
+            fmt::format("{} cells are folded, worst in body \"{}\" at {}: near some of their nodes they are inside out, and "
+                        "stresses there mean nothing",
+                        count, name, spell(found.at)),
+            "move nodes between corners to the middle of their edges, or mesh anew"};
+  w.at = found.at;
+  w.body = name;
+  w.value = static_cast<double>(count);
+  return {w};
 }
 
 }  // namespace mortise::post

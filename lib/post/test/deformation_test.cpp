@@ -116,6 +116,31 @@ TEST(InvertedCells, are_counted_and_placed)
   EXPECT_EQ(inverted_cells(blocks.decomposition, zero, blocks.comm)[0].value, 8);
 }
 
+// A node between two corners of a straight hex20, a way along its edge from the middle: folded beyond the quarter point.
+TEST(FoldedCells, have_nodes_beyond_quarter_points)
+{
+  const Communicator comm;
+  mesh::Options mesh;
+  mesh.blocks["block"] = {{0, 0, 0}, {2, 1, 1}, {2, 1, 1}, "hex20"};
+  partition::Options options;
+  options.method = "grid";
+  options.counts = {{"block", {1, 1, 1}}};
+  const auto whole = partition::cut_of(mesh, options, comm);
+  const auto moved = [&](double way) {
+    auto decomposition = whole;
+    for (auto& subdomain : decomposition.subdomains)
+      for (auto& x : subdomain.mesh.points)
+        if ((x - Point(0.5, 0, 0)).norm() < 1e-9) x[0] += way;
+    return folded_cells(decomposition, comm);
+  };
+  EXPECT_TRUE(moved(0).empty());
+  EXPECT_TRUE(moved(0.24).empty());
+  const auto found = moved(0.26);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].value, 1);
+  EXPECT_EQ(found[0].body, "block");
+}
+
 // Of a slide of the upper block by `length` along (1, 0, 0), with the lower one moving by `lower`; faces are 0.5 x 0.5.
 // `closed`: nodes of the first ranks that have `status`; the others are open.
 std::vector<Warning> slide(double length, double lower, contact::Law law, contact::Status status, long long closed = 1000)

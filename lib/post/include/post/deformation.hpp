@@ -18,4 +18,8 @@ std::vector<Warning> large_displacements(const partition::Decomposition& decompo
 std::vector<Warning> inverted_cells(const partition::Decomposition& decomposition,
                                     const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm);
 
+/// "folded_cells": before any load, det dx/d(xi) is negative at a node or an integration point of a cell, as where a node between
+/// two corners lies beyond the quarter point of its edge. Collapsed bricks are not. Collective.
+std::vector<Warning> folded_cells(const partition::Decomposition& decomposition, const Communicator& comm);
+
 }  // namespace mortise::post
