@@ -64,22 +64,21 @@ bool Report::LoadSteps::is_due(const Begun& begun, bool converged) const
   return ends_a_step(begun.acts) || !converged || begun.increment % deck_.output.every == 0;
 }
 
-bool Report::LoadSteps::gave_up(const analysis::LoadStepSolver& solver, const analysis::StepState& state)
+bool Report::LoadSteps::gave_up(const analysis::StepState& state)
 {
   context_.log.end_progress();
   run_.end_stage("solve", "solve");
   if (!state.solved.gave_up) return false;
-  if (!approach_.takes_bodies_whole())
-    run_.sizes_as_cut_ = output::sizes_of(assembly_.decomposition(), solver.problem(), context_.comm);
+  if (!approach_.takes_bodies_whole()) run_.sizes_as_cut_ = output::sizes_of(state.problem.system(), context_.comm);
   return true;
 }
 
-auto Report::LoadSteps::write(const Begun& begun, const analysis::LoadStepSolver& solver, const analysis::StepState& state,
-                              const post::Probes& probes, post::Results results, const std::optional<Written>& before) -> Written
+auto Report::LoadSteps::write(const Begun& begun, const analysis::StepState& state, const post::Probes& probes,
+                              post::Results results, const std::optional<Written>& before) -> Written
 {
   const auto& comm = context_.comm;
   const auto& model = assembly_.model();
-  const output::EvaluatedState found{model.decomposition(), assembly_.interface(), solver.problem(), state, probes, results};
+  const output::EvaluatedState found{model.decomposition(), assembly_.interface(), state, probes, results};
   const bool first = !before;
   auto summary = output::summarise(model, found, comm);
   summary.version = MORTISE_VERSION;
@@ -103,10 +102,9 @@ auto Report::LoadSteps::write(const Begun& begun, const analysis::LoadStepSolver
   return {begun, std::move(summary), std::move(results)};
 }
 
-void Report::LoadSteps::keep(const Written& written, const analysis::LoadStepSolver& solver,
-                             const analysis::StepState& state) const
+void Report::LoadSteps::keep(const Written& written, const analysis::StepState& state) const
 {
-  if (written.state.index < states_) restart_.keep(written.state.index, approach_, solver, state);
+  if (written.state.index < states_) restart_.keep(written.state.index, approach_, state);
 }
 
 analysis::Outcome Report::LoadSteps::failed(const Begun& begun, const analysis::LoadStepSolver& solver,

@@ -39,12 +39,12 @@ class Report::LoadSteps {
   /// Writes the solver's progress to the history and on the terminal.
   analysis::Observer observer(const Begun& begun);
   /// The solver has come to an end with this state. True if it gave up.
-  bool gave_up(const analysis::LoadStepSolver& solver, const analysis::StepState& state);
+  bool gave_up(const analysis::StepState& state);
   /// The files of a state, which has been evaluated; `before` as for begin().
-  Written write(const Begun& begun, const analysis::LoadStepSolver& solver, const analysis::StepState& state,
-                const post::Probes& probes, post::Results results, const std::optional<Written>& before);
+  Written write(const Begun& begun, const analysis::StepState& state, const post::Probes& probes, post::Results results,
+                const std::optional<Written>& before);
   /// Its record, from which a run goes on.
-  void keep(const Written& written, const analysis::LoadStepSolver& solver, const analysis::StepState& state) const;
+  void keep(const Written& written, const analysis::StepState& state) const;
   /// To be called where an exception is handled that a load step threw: the outcome of the attempt if another approach may do
   /// better, see analysis::failed; else leaves the results of the load steps `before`, and throws the error, which names the load
   /// step then.

@@ -29,7 +29,8 @@ analysis::Outcome solve_load_steps(const model::Model& model, const post::Probes
   const analysis::Assembly assembly(model, copies, context);  // K of every subdomain, and its factors
   report.assembly(assembly, copies);
   const auto approach = analysis::with_patience(asked, assembly, rows.constraints, context.comm);
-  auto problem = analysis::make_dual_problem(assembly, std::move(rows), context);  // min 1/2 l'F l - l'd, G l = e, l in Omega
+  // min 1/2 l'F l - l'd, G l = e, l in Omega
+  auto problem = analysis::make_dual_problem(assembly, std::move(rows), approach, context);
   analysis::LoadStepSolver solver(assembly, std::move(problem), approach, context);
 
   Report::LoadSteps steps(report, assembly, states.size(), approach, restart);
@@ -41,10 +42,10 @@ analysis::Outcome solve_load_steps(const model::Model& model, const post::Probes
       const auto* record = restart.find(approach, acts.time);  // of a run that this one resumes
       state =
           record ? solver.take_up(acts, std::move(state), *record) : solver.solve(acts, std::move(state), steps.observer(begun));
-      if (steps.gave_up(solver, *state)) return solver.given_up(*state);
-      auto results = analysis::evaluate(assembly, solver, *state, probes, context);
-      written = steps.write(begun, solver, *state, probes, std::move(results), written);
-      steps.keep(*written, solver, *state);
+      if (steps.gave_up(*state)) return solver.given_up(*state);
+      auto results = analysis::evaluate(assembly, *state, probes, context);
+      written = steps.write(begun, *state, probes, std::move(results), written);
+      steps.keep(*written, *state);
     } catch (...) {
       return steps.failed(begun, solver, written);
     }

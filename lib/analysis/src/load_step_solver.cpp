@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "analysis/symmetric_nodes.hpp"
 #include "base/error.hpp"
@@ -43,7 +44,8 @@ qp::Solution carry_solution(const feti::DualProblem& from, const qp::Solution& s
       forces[ranges.dirichlet + static_cast<Local>(i)] = before[found->second];
   CarriedContact(from, solution).put(to, forces, gaps);
   Eigen::VectorXd nu = Eigen::VectorXd::Zero(to.equality().size());
-  const auto common = std::min<Eigen::Index>({nu.size(), solution.nu.size(), from.kernel_dimension(), to.kernel_dimension()});
+  const auto common =
+      std::min<Eigen::Index>({nu.size(), solution.nu.size(), from.system().kernel_dimension(), to.system().kernel_dimension()});
   nu.head(common) = solution.nu.head(common);
   qp::Solution start(to.multipliers(forces), to.gradient(gaps, nu), nu);
   start.hessian_norm = solution.hessian_norm;
@@ -84,6 +86,12 @@ std::vector<constraint::SlidingSurface> sliding_surfaces_of(const Rows& rows, co
   return contact::sliding_surfaces(pairs, rows.constraints.contacts, model.deck().kinematics, comm);
 }
 
+// Shared with the rows.
+std::shared_ptr<const constraint::Constraints> constraints_of(const std::shared_ptr<const Rows>& rows)
+{
+  return {rows, &rows->constraints};
+}
+
 // Facets of the mesh stop what slides along itself once friction is used up: a solution, but no equilibrium of the bodies meant.
 // Throws Error(no_equilibrium). Collective.
 void refuse_support_of_facets(const feti::DualProblem& problem, const Assembly& assembly, const Rows& rows,
@@ -102,91 +110,93 @@ void refuse_support_of_facets(const feti::DualProblem& problem, const Assembly& 
                 "no equilibrium: " + *moved + ". Support it, or look at the direction of the loads and at the friction");
 }
 
-std::unique_ptr<feti::DualProblem> make_problem(const Assembly& assembly, const Rows& rows, std::vector<Eigen::VectorXd> load,
-                                                const Context& context)
+// The programme of a system of its own, for a solver of that algorithm.
+feti::DualProblem make_problem(const Assembly& assembly, const std::shared_ptr<const Rows>& rows,
+                               std::vector<Eigen::VectorXd> load, const Approach& approach, const Context& context)
 {
-  auto problem = std::make_unique<feti::DualProblem>(
-      assembly.decomposition(), assembly.directory(), assembly.interface(), rows.constraints, assembly.system(), std::move(load),
-      assembly.deck().solver.subdomains, context, sliding_surfaces_of(rows, assembly.model(), context.comm),
-      assembly.model().opposed_loads(rows.acts, context.comm));
-  context.log.line("  dual problem: {} multipliers, {} kernel dimensions", problem->dual_unknowns(), problem->kernel_dimension());
+  const bool exact = qp::solver_kind(approach.algorithm).exact_products;
+  feti::DualProblem problem(
+      assembly.decomposition(), assembly.directory(), assembly.interface(), constraints_of(rows), assembly.system(),
+      std::move(load), assembly.deck().solver.subdomains, context, sliding_surfaces_of(*rows, assembly.model(), context.comm),
+      assembly.model().opposed_loads(rows->acts, context.comm), exact ? feti::Products::exact : feti::Products::rounded);
+  context.log.line("  dual problem: {} multipliers, {} kernel dimensions", problem.system().dual_unknowns(),
+                   problem.system().kernel_dimension());
   return problem;
 }
 
 }  // namespace
 
-StepProblem make_dual_problem(const Assembly& assembly, Rows rows, const Context& context)
+StepProblem make_dual_problem(const Assembly& assembly, Rows rows, const Approach& approach, const Context& context)
 {
-  StepProblem problem;
+  std::shared_ptr<const Rows> placed;
+  std::shared_ptr<const post::SymmetricNodes> symmetric;
   std::vector<Eigen::VectorXd> load;
   {
     const auto scope = context.timers.scope("assembly");
     rows = place(std::move(rows), assembly.model(), assembly.directory(), {}, context.comm);
-    problem.symmetric = symmetric_nodes_of(rows, assembly, context.comm);
+    symmetric = symmetric_nodes_of(rows, assembly, context.comm);
     load = assembly.loads(rows.acts, context.comm);
-    problem.rows = std::make_shared<const Rows>(std::move(rows));
+    placed = std::make_shared<const Rows>(std::move(rows));
   }
   const auto scope = context.timers.scope("solve");
-  problem.dual = make_problem(assembly, *problem.rows, std::move(load), context);
-  return problem;
+  auto dual = make_problem(assembly, placed, std::move(load), approach, context);
+  return {std::move(placed), std::move(symmetric), std::move(dual)};
 }
 
 LoadStepSolver::LoadStepSolver(const Assembly& assembly, StepProblem first, Approach approach, const Context& context)
-    : assembly_(assembly),
-      context_(context),
-      approach_(std::move(approach)),
-      rows_(std::move(first.rows)),
-      symmetric_(std::move(first.symmetric)),
-      problem_(std::move(first.dual)),
-      before_(approach_.spent)
+    : assembly_(assembly), context_(context), approach_(std::move(approach)), first_(std::move(first)), before_(approach_.spent)
 {
   const auto scope = context.timers.scope("solve");
-  make_solver();
+  solver_of(first_->dual);
 }
 
-// The rows of a state, and what goes with them. Collective.
-void LoadStepSolver::take_rows(Rows rows)
+void LoadStepSolver::drop_solver()
 {
-  symmetric_ = symmetric_nodes_of(rows, assembly_, context_.comm);
-  rows_ = std::make_shared<const Rows>(std::move(rows));
+  before_ = applications();
+  solver_.reset();
 }
 
-void LoadStepSolver::make_solver()
+// What solves problems of this one's system: the same as for the problem before, if it had that system too. Collective.
+DualSolver& LoadStepSolver::solver_of(const feti::DualProblem& problem)
 {
+  if (solver_ && &solver_->system() == &problem.system()) return *solver_;
+  drop_solver();
   auto options = assembly_.deck().solver.programme;
   options.algorithm = approach_.algorithm;
   if (auto& most = options.max_multiplications.value) *most -= before_;
-  if (qp::solver_kind(options.algorithm).exact_products) problem_->be_exact();
-  solver_.emplace(*problem_, model::friction_laws(assembly_.model().contacts()), assembly_.deck().friction_loop, options);
+  return solver_.emplace(problem.shared_system(), model::friction_laws(assembly_.model().contacts()),
+                         assembly_.deck().friction_loop, options);
 }
 
-// Of a state, which is that of the problem still, and of those before it. Collective.
+// Of a state and of those before it. Collective.
 Magnitudes LoadStepSolver::up_to(const StepState& state) const
 {
   const auto scope = context_.timers.scope("solve");
   const auto& comm = context_.comm;
+  const auto& problem = state.problem;
+  const auto& lambda = state.solved.solution.x;
   Magnitudes result = state.before;
-  const auto constitution = assembly_.model().constitution(rows_->acts);
-  result.energy_norm = std::max(result.energy_norm, norms(constitution, state.solved.solution.x, state.displacement).whole);
+  const auto constitution = assembly_.model().constitution(state.rows->acts);
+  result.energy_norm =
+      std::max(result.energy_norm, norms(*state.symmetric, problem, constitution, lambda, state.displacement).whole);
   const auto sizes = post::body_sizes(assembly_.decomposition(), assembly_.deck().kinematics, comm);
-  result.rounding.take(post::rounding(state.displacement, problem_->load(), assembly_.system().nodal_stiffness,
-                                      problem_->dimension(), *std::max_element(sizes.begin(), sizes.end()), comm));
+  result.rounding.take(post::rounding(state.displacement, problem.load(), assembly_.system().nodal_stiffness, problem.dimension(),
+                                      *std::max_element(sizes.begin(), sizes.end()), comm));
   double square = 0;
-  for (const auto& f : problem_->jump().apply_transpose(state.solved.solution.x)) square += f.squaredNorm();
+  for (const auto& f : problem.jump().apply_transpose(lambda)) square += f.squaredNorm();
   result.force = std::max(result.force, std::sqrt(comm.sum(square)));
   result.rounding.force = std::max(result.rounding.force, part_to_balance * result.force);
-  const bool slides = comm.any(!problem_->set().discs().empty());
+  const bool slides = comm.any(!problem.set().discs().empty());
   if (slides && std::isfinite(state.solved.solution.error)) result.slip_error += state.solved.solution.error;
   return result;
 }
 
-// Makes the problem that of the state `acts`, in place if its rows stay, and turns `from`, the state before, into a start for it.
-// Collective.
-void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
+// The problem of the state `acts`, on the system of the state before, `from`, if its rows stay; and turns the solution of `from`
+// into a start for it. Collective.
+StepProblem LoadStepSolver::problem_after(const model::LoadState& acts, StepState& from)
 {
   const auto& comm = context_.comm;
   const auto& model = assembly_.model();
-  first_ = false;
   std::vector<Eigen::VectorXd> load;
   {
     const auto scope = context_.timers.scope("assembly");
@@ -194,116 +204,148 @@ void LoadStepSolver::update(const model::LoadState& acts, StepState& from)
   }
   const auto scope = context_.timers.scope("solve");
   Rows rows = *from.rows;
-  const Eigen::VectorXd jumps = problem_->jumps(from.displacement) - problem_->given_way(from.solved.solution.x);
-  const auto& ranges = problem_->jump().ranges();
+  const Eigen::VectorXd jumps = from.problem.jumps(from.displacement) - from.problem.given_way(from.solved.solution.x);
+  const auto& ranges = from.problem.jump().ranges();
   constraint::remember_slip(rows.constraints.contacts,
                             {jumps.data() + ranges.contacts, static_cast<std::size_t>(ranges.extra - ranges.contacts)});
 
   auto same = with_new_bounds(rows, model, assembly_.directory(), acts, from.shortenings, comm);
   const bool same_sections = rows.constraints.pretension_sections.empty() || acts.locked == rows.acts.locked;
-  if (same && same_sections && problem_->update_rhs(same->constraints, load, model.opposed_loads(acts, comm))) {
-    take_rows(std::move(*same));
-    return;
-  }
-  if (!same) {
+  const bool other_rows = !same;
+  if (other_rows) {
     same = place(make_rows(model, acts, from.shortenings, context_), model, assembly_.directory(), from.shortenings, comm);
     carry_slip(rows.constraints.contacts, same->constraints.contacts);
   }
-  take_rows(std::move(*same));
-  before_ = applications();
-  solver_.reset();
-  auto next = make_problem(assembly_, *rows_, std::move(load), context_);
-  from.solved.solution = carry_solution(*problem_, from.solved.solution, *next);
-  problem_ = std::move(next);
-  make_solver();
+  auto symmetric = symmetric_nodes_of(*same, assembly_, comm);
+  auto next = std::make_shared<const Rows>(std::move(*same));
+  if (!other_rows && same_sections)
+    if (auto dual = from.problem.with_loads(constraints_of(next), load, model.opposed_loads(acts, comm)))
+      return {std::move(next), std::move(symmetric), std::move(*dual)};
+  drop_solver();  // before there is another system
+  auto dual = make_problem(assembly_, next, std::move(load), approach_, context_);
+  from.solved.solution = carry_solution(from.problem, from.solved.solution, dual);
+  return {std::move(next), std::move(symmetric), std::move(dual)};
 }
 
-LoadStepSolver::Norms LoadStepSolver::norms(std::span<const fem::Constitution> constitution, const Vector& lambda,
+// Nothing of the state before stays but what it knows.
+LoadStepSolver::Begun LoadStepSolver::begin(const model::LoadState& acts, std::optional<StepState> before)
+{
+  if (!before) {
+    if (!first_) throw std::logic_error("the first load state is solved already");
+    Begun begun{std::move(*first_), assembly_.model().constitution(acts), {}, approach_.patience, {}};
+    first_.reset();
+    return begun;
+  }
+  const auto magnitudes = up_to(*before);
+  auto problem = problem_after(acts, *before);
+  return {std::move(problem),
+          assembly_.model().constitution(acts),
+          std::move(before->solved.solution),
+          before->patience,
+          magnitudes,
+          false};
+}
+
+LoadStepSolver::Norms LoadStepSolver::norms(const post::SymmetricNodes& symmetric, const feti::DualProblem& problem,
+                                            std::span<const fem::Constitution> constitution, const Vector& lambda,
                                             const std::vector<Eigen::VectorXd>& displacement) const
 {
-  const auto bodies = elastic_bodies(assembly_, constitution, *symmetric_);
-  const auto [error, strain] = post::energy_norms(bodies, displacement, context_.comm);
-  const double whole =
-      std::hypot(strain, problem_->springs() ? std::sqrt(std::max(problem_->springs()->stored(lambda), 0.0)) : 0);
+  const auto [error, strain] =
+      post::energy_norms(elastic_bodies(assembly_, constitution, symmetric), displacement, context_.comm);
+  const auto* springs = problem.system().springs();
+  const double whole = std::hypot(strain, springs ? std::sqrt(std::max(springs->stored(lambda), 0.0)) : 0);
   return {error, std::max(strain, strained * whole), whole};
 }
 
-StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<StepState> before, const Observer& observer)
+// How exactly a state is to be solved. All arguments outlive it.
+qp::Goal LoadStepSolver::goal(const Begun& begun, feti::Displacements& displacements) const
 {
-  const auto magnitudes = before ? up_to(*before) : Magnitudes{};
-  if (before) update(acts, *before);
-  const auto scope = context_.timers.scope("solve");
-  const auto constitution = assembly_.model().constitution(acts);
-  const auto norms_at = [&](const Vector& lambda, const Eigen::VectorXd& nu) {
+  const auto norms_of = [this, &begun](const Vector& lambda, const std::vector<Eigen::VectorXd>& displacement) {
+    return norms(*begun.problem.symmetric, begun.problem.dual, begun.constitution, lambda, displacement);
+  };
+  const auto norms_at = [this, norms_of, &displacements](const Vector& lambda, const Eigen::VectorXd& nu) {
     const auto estimating = context_.timers.scope("error estimate");
-    return norms(constitution, lambda, problem_->displacement(lambda, nu));
+    return norms_of(lambda, displacements.at(lambda, nu));
   };
   const auto allowed_error = [](const Norms& at) {
     return std::clamp(algebraic_part * at.error, smallest_part * at.whole, largest_part * at.size);
   };
-  const qp::Goal accuracy{
-      .allowed_error = [&](const Vector& lambda, const Eigen::VectorXd& nu) { return allowed_error(norms_at(lambda, nu)); },
-      .expected_allowed_error =
-          [&](const Vector& lambda, const Eigen::VectorXd& nu) {
-            const auto estimating = context_.timers.scope("error estimate");
-            return allowed_error(norms(constitution, lambda, problem_->displacement_of_product(lambda, nu)));
-          },
-      .incompatibility =
-          [&](const Vector& lambda, const Eigen::VectorXd& nu) {
-            return post::incompatibility(*problem_, assembly_.decomposition(), assembly_.interface(),
-                                         problem_->displacement(lambda, nu), nu);
-          },
-      .energy_norm = [&](const Vector& lambda, const Eigen::VectorXd& nu) { return norms_at(lambda, nu).size; },
-      .negligible = magnitudes.negligible()};
+  return {.allowed_error = [=](const Vector& lambda, const Eigen::VectorXd& nu) { return allowed_error(norms_at(lambda, nu)); },
+          .expected_allowed_error =
+              [=, this, &displacements](const Vector& lambda, const Eigen::VectorXd& nu) {
+                const auto estimating = context_.timers.scope("error estimate");
+                return allowed_error(norms_of(lambda, displacements.at_product(lambda, nu)));
+              },
+          .incompatibility =
+              [this, &begun, &displacements](const Vector& lambda, const Eigen::VectorXd& nu) {
+                return post::incompatibility(begun.problem.dual, assembly_.decomposition(), assembly_.interface(),
+                                             displacements.at(lambda, nu), nu);
+              },
+          .energy_norm = [=](const Vector& lambda, const Eigen::VectorXd& nu) { return norms_at(lambda, nu).size; },
+          .negligible = begun.before.negligible()};
+}
+
+StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<StepState> before, const Observer& observer)
+{
+  auto begun = begin(acts, std::move(before));
+  before.reset();
+  const auto scope = context_.timers.scope("solve");
+  const auto& problem = begun.problem.dual;
+  auto& solver = solver_of(problem);
   const auto count_on = [&](int step, double change, qp::Progress progress) {
     progress.applications += before_;
     observer(step, change, progress);
   };
-  auto patience = before ? before->patience : approach_.patience;
-  std::optional<qp::Solution> start;
-  if (before)
-    start = before->solved.solution;
-  else if (approach_.contact)
-    solver_->suggest(approach_.contact->states_for(*problem_, context_.comm));
-  auto found = solver_->solve(start, accuracy, count_on, patience);
-  if (found.gave_up) return {rows_, symmetric_, std::move(found), {}, {}, patience, magnitudes};
+  if (begun.first && approach_.contact) solver.suggest(approach_.contact->states_for(problem, context_.comm));
+  feti::Displacements displacements(problem, solver.product());
+  auto found = solver.solve(problem, begun.start, goal(begun, displacements), count_on, begun.patience);
+  if (found.gave_up) return end(std::move(begun), std::move(found), {});
   if (approach_.kind == Approach::Kind::direct_instead)
-    patience.reset();  // what it has solved is not thrown away for a later state
-  found.solution.nu = problem_->least_motion(found.solution.x, found.solution.nu, magnitudes.unfelt());
-  auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
-  refuse_support_of_facets(*problem_, assembly_, *rows_, found, displacement);
-  auto shortenings = problem_->shortenings(found.solution.nu);
-  return {rows_, symmetric_, std::move(found), std::move(displacement), std::move(shortenings), patience, magnitudes};
+    begun.patience.reset();  // what it has solved is not thrown away for a later state
+  const auto& x = found.solution.x;
+  auto& nu = found.solution.nu;
+  nu = problem.least_motion(x, nu, displacements.at(x, nu), begun.before.unfelt());
+  auto displacement = displacements.at(x, nu);
+  refuse_support_of_facets(problem, assembly_, *begun.problem.rows, found, displacement);
+  return end(std::move(begun), std::move(found), std::move(displacement));
 }
 
 StepState LoadStepSolver::take_up(const model::LoadState& acts, std::optional<StepState> before, const Record& record)
 {
-  const auto magnitudes = before ? up_to(*before) : Magnitudes{};
-  if (before) update(acts, *before);
-  const auto patience = before ? before->patience : approach_.patience;
-  auto found = solution_of(record, *problem_);
+  auto begun = begin(acts, std::move(before));
+  before.reset();
+  const auto scope = context_.timers.scope("solve");
+  auto found = solution_of(record, begun.problem.dual, solver_of(begun.problem.dual).product());
   before_ += found.applications;
-  auto displacement = problem_->displacement(found.solution.x, found.solution.nu);
-  auto shortenings = problem_->shortenings(found.solution.nu);
-  return {rows_, symmetric_, std::move(found), std::move(displacement), std::move(shortenings), patience, magnitudes};
+  auto displacement = begun.problem.dual.displacement(found.solution.x, found.solution.nu);
+  return end(std::move(begun), std::move(found), std::move(displacement));
+}
+
+// The state, without what only its solution took. No displacement: it gave up.
+StepState LoadStepSolver::end(Begun begun, feti::DualSolution found, std::vector<Eigen::VectorXd> displacement) const
+{
+  auto& [rows, symmetric, problem] = begun.problem;
+  problem.let_go_of_response();
+  auto shortenings = found.gave_up ? std::vector<double>() : problem.shortenings(found.solution.nu);
+  return {std::move(rows),        std::move(symmetric), std::move(problem), std::move(found), std::move(displacement),
+          std::move(shortenings), begun.patience,       begun.before,       begun.first};
 }
 
 Outcome LoadStepSolver::given_up(const StepState& state) const
 {
   Outcome outcome{.status = {}, .next = approach_.next, .spent = applications()};
-  if (first_)
+  if (state.first)
     outcome.contact =
-        std::make_shared<const CarriedContact>(CarriedContact(*problem_, state.solved.solution).spread(context_.comm));
+        std::make_shared<const CarriedContact>(CarriedContact(state.problem, state.solved.solution).spread(context_.comm));
   return outcome;
 }
 
-post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const post::Probes& probes,
-                       const Context& context)
+post::Results evaluate(const Assembly& assembly, const StepState& state, const post::Probes& probes, const Context& context)
 {
   const auto& comm = context.comm;
   const auto& deck = assembly.deck();
   const auto constitution = assembly.model().constitution(state.rows->acts);
-  const post::Equilibrium equilibrium{solver.problem(),
+  const post::Equilibrium equilibrium{state.problem,
                                       assembly.system(),
                                       state.rows->pairs,
                                       state.solved,

@@ -144,10 +144,10 @@ const Record* Restart::find(const Approach& approach, double time) const
   return nullptr;
 }
 
-void Restart::keep(std::size_t index, const Approach& approach, const LoadStepSolver& solver, const StepState& state) const
+void Restart::keep(std::size_t index, const Approach& approach, const StepState& state) const
 {
   if (!state.solved.converged || find(approach, state.rows->acts.time)) return;
-  const auto& problem = solver.problem();
+  const auto& problem = state.problem;
   const auto& solution = state.solved.solution;
   auto numbers = head_of(approach, state.rows->acts.time, comm_);
   std::vector<double> counts(figure::count);
@@ -166,7 +166,7 @@ void Restart::keep(std::size_t index, const Approach& approach, const LoadStepSo
   counts[figure::energy] = print.energy;
   numbers.insert(numbers.end(), counts.begin(), counts.end());
 
-  io::Table multipliers{"dual/multipliers", "forces of the rows", 1, problem.dual_unknowns(), {}, {}};
+  io::Table multipliers{"dual/multipliers", "forces of the rows", 1, problem.system().dual_unknowns(), {}, {}};
   const Eigen::VectorXd forces = problem.forces(solution.x);
   const auto rows = problem.jump().rows()->getNodeElementList();
   multipliers.row.assign(rows.begin(), rows.end());
@@ -191,7 +191,7 @@ void Restart::remove() const
   for (std::size_t index = 1; fs::remove(path(index), ignored);) ++index;
 }
 
-feti::DualSolution solution_of(const Record& record, const feti::DualProblem& problem)
+feti::DualSolution solution_of(const Record& record, const feti::DualProblem& problem, const Operator& hessian)
 {
   const auto& comm = problem.communicator();
   const auto discs = static_cast<long long>(problem.set().discs().size());
@@ -202,7 +202,7 @@ feti::DualSolution solution_of(const Record& record, const feti::DualProblem& pr
     bounds = io::read_table(record.file, "dual/slip_bounds");
     nu = io::read_table(record.file, "restart/kernel");
     augmented = io::read_table(record.file, "restart/augmented");
-    if (static_cast<Global>(multipliers.size()) != problem.dual_unknowns() ||
+    if (static_cast<Global>(multipliers.size()) != problem.system().dual_unknowns() ||
         static_cast<Eigen::Index>(nu.size()) != problem.equality().size() || static_cast<long long>(bounds.size()) != all_discs)
       throw Error(ExitStatus::bad_input,
                   "--resume: the mesh or its subdomains are not those of the run that was ended; run the deck without it");
@@ -215,7 +215,7 @@ feti::DualSolution solution_of(const Record& record, const feti::DualProblem& pr
   const Vector x = problem.multipliers(forces);
   const auto right = problem.right_hand_side();
   Vector gradient(right->b, Teuchos::Copy);
-  problem.hessian().apply(x, gradient, Teuchos::NO_TRANS, 1, -1);
+  hessian.apply(x, gradient, Teuchos::NO_TRANS, 1, -1);
   const auto print = fingerprint(x, gradient, right->b);
   if (differ(print.linear, record.counts[figure::linear], print.linear_scale) ||
       differ(print.energy, record.counts[figure::energy], print.energy_scale))

@@ -40,8 +40,6 @@ struct PushedStack : feti::Stack {
     dirichlet_rows({{"lower.zmin", {0, 0, 0}}});
     join("upper.zmin", "lower.zmax", false, tangents);
   }
-
-  feti::DualProblem problem() { return {decomposition, *directory, interface, constraints, system, load, {}, context}; }
 };
 
 class Displacements {
@@ -176,13 +174,13 @@ TEST_P(TwoBlocks, HaveTheForcesOfTheAssembledMatrix)
   const bool slow = algorithm == std::string("smalse");
   const double tolerance = slow ? 1e-7 : 1e-9;
   for (const int pieces : {1, 3}) {
-    PushedStack stack(push, law.kind != LawKind::frictionless, pieces);
-    auto problem = stack.problem();
+    const PushedStack stack(push, law.kind != LawKind::frictionless, pieces);
+    const auto problem = stack.problem();
     qp::Options options;
     options.algorithm = algorithm;
     options.tolerance.value = tolerance;
-    DualSolver solver(problem, {law}, {tolerance, 200}, options);
-    const auto result = solver.solve({}, {}, {});
+    DualSolver solver(problem.shared_system(), {law}, {tolerance, 200}, options);
+    const auto result = solver.solve(problem, {}, {}, {});
     EXPECT_TRUE(result.converged) << pieces;
     EXPECT_LE(result.applications, most) << pieces;
     const Eigen::VectorXd forces = forces_of(problem, result.solution.x, contact_points);
@@ -202,14 +200,14 @@ TEST_P(TwoBlocks, HaveTheForcesOfTheAssembledMatrix)
 TEST(TwoBlocksPushedTooHard, AreNoEquilibrium)
 {
   for (const char* algorithm : {"face_newton", "smalse"}) {
-    PushedStack stack(0.5, true, 1);
-    auto problem = stack.problem();
+    const PushedStack stack(0.5, true, 1);
+    const auto problem = stack.problem();
     qp::Options options;
     options.algorithm = algorithm;
     options.tolerance.value = 1e-6;
-    DualSolver solver(problem, {{LawKind::coulomb, 0.3}}, {1e-4, 50}, options);
+    DualSolver solver(problem.shared_system(), {{LawKind::coulomb, 0.3}}, {1e-4, 50}, options);
     try {
-      solver.solve({}, {}, {});
+      solver.solve(problem, {}, {}, {});
       FAIL() << "no error";
     } catch (const Error& error) {
       EXPECT_EQ(error.status(), ExitStatus::no_equilibrium);
@@ -223,15 +221,15 @@ TEST(TwoBlocksWithFewProducts, EndWithoutASolution)
 {
   const Law law{LawKind::coulomb, 0.4};
   for (const bool waiting : {true, false}) {
-    PushedStack stack(0.15, true, 3);
-    auto problem = stack.problem();
+    const PushedStack stack(0.15, true, 3);
+    const auto problem = stack.problem();
     qp::Options options;
     options.algorithm = "face_newton";
     options.tolerance.value = 1e-10;
     constexpr int few = 15;
     if (!waiting) options.max_multiplications.value = few;
-    DualSolver solver(problem, {law}, {1e-9, 50}, options);
-    const auto result = solver.solve({}, {}, {}, waiting ? std::optional<qp::Patience>(few) : std::nullopt);
+    DualSolver solver(problem.shared_system(), {law}, {1e-9, 50}, options);
+    const auto result = solver.solve(problem, {}, {}, {}, waiting ? std::optional<qp::Patience>(few) : std::nullopt);
     EXPECT_FALSE(result.converged);
     EXPECT_EQ(result.gave_up, waiting);
     EXPECT_LE(result.applications, few + 3);
@@ -242,15 +240,15 @@ TEST(TwoBlocksWithFewProducts, EndWithoutASolution)
 // The second load step is the first one again: it starts from its solution and has next to nothing to do.
 TEST(TwoBlocksAgain, StartFromWhatIsKnown)
 {
-  PushedStack stack(0.15, true, 3);
-  auto problem = stack.problem();
+  const PushedStack stack(0.15, true, 3);
+  const auto problem = stack.problem();
   qp::Options options;
   options.algorithm = "face_newton";
   options.tolerance.value = 1e-8;
-  DualSolver solver(problem, {{LawKind::coulomb, 0.4}}, {1e-6, 50}, options);
-  const auto first = solver.solve({}, {}, {});
+  DualSolver solver(problem.shared_system(), {{LawKind::coulomb, 0.4}}, {1e-6, 50}, options);
+  const auto first = solver.solve(problem, {}, {}, {});
   ASSERT_TRUE(first.converged);
-  const auto second = solver.solve(first.solution, {}, {});
+  const auto second = solver.solve(problem, first.solution, {}, {});
   EXPECT_TRUE(second.converged);
   EXPECT_LE(second.applications, std::min(first.applications / 2, 8));
   const Eigen::VectorXd a = forces_of(problem, first.solution.x, contact_points),

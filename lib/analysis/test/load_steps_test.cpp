@@ -50,7 +50,8 @@ class Analysis {
     assembly_.emplace(*model_, copies, quiet_.context);
     approach_.algorithm = deck_.solver.programme.algorithm;
     auto rows = make_rows(*model_, states_.front(), {}, quiet_.context);
-    solver_.emplace(*assembly_, make_dual_problem(*assembly_, std::move(rows), quiet_.context), approach_, quiet_.context);
+    solver_.emplace(*assembly_, make_dual_problem(*assembly_, std::move(rows), approach_, quiet_.context), approach_,
+                    quiet_.context);
   }
 
   // The states of all steps and what they come to.
@@ -59,8 +60,8 @@ class Analysis {
     std::optional<StepState> state;
     for (const auto& acts : states_) {
       state = solver_->solve(acts, std::move(state), [](int, double, const qp::Progress&) {});
-      results.push_back(evaluate(*assembly_, *solver_, *state, {}, quiet_.context));
-      again.push_back(evaluate(*assembly_, *solver_, *state, {}, quiet_.context));
+      results.push_back(evaluate(*assembly_, *state, {}, quiet_.context));
+      again.push_back(evaluate(*assembly_, *state, {}, quiet_.context));
       states.push_back(*state);
     }
   }

@@ -87,16 +87,16 @@ Eigen::VectorXd ConstrainedSubdomain::reactions(const Eigen::VectorXd& u) const
   return all(prescribed_);
 }
 
-DirichletElimination::DirichletElimination(const DualProblem& problem, Global few) : problem_(problem)
+DirichletElimination::DirichletElimination(const DualSystem& system, Global few) : system_(system)
 {
   choose(few);
-  collectively(problem.communicator(), [&] {
+  collectively(system.communicator(), [&] {
     for (std::size_t s = 0; s < rows_.size(); ++s) {
       stop_if_requested();
       std::vector<Local> prescribed;
       for (const auto& row : rows_[s]) prescribed.push_back(row.unknown);
-      subdomains_.emplace_back(*problem.clusters().subdomains()[s], std::move(prescribed), problem.dimension(),
-                               problem.factorization());
+      subdomains_.emplace_back(*system.clusters().subdomains()[s], std::move(prescribed), system.dimension(),
+                               system.factorization());
     }
   });
 }
@@ -105,7 +105,7 @@ DirichletElimination::DirichletElimination(const DualProblem& problem, Global fe
 // a single one just one. Collective.
 Vector DirichletElimination::kinds_of_rows() const
 {
-  const auto& jump = problem_.jump();
+  const auto& jump = system_.jump();
   const auto& ranges = jump.ranges();
   Vector entries(jump.rows()), touched(jump.touched_rows());
   {
@@ -119,9 +119,7 @@ Vector DirichletElimination::kinds_of_rows() const
     auto kind = view(entries);
     for (Local i = 0; i < ranges.end; ++i)
       kind[i] = i < ranges.dirichlet || i >= ranges.springs ? other : kind[i] == 1 ? single : skew;
-    const auto& components = problem_.constraints().prescribed;
-    for (std::size_t i = 0; i < components.size(); ++i)  // what a coupling leaves unknown has columns of G of its own
-      if (components[i].unknown) kind[ranges.dirichlet + static_cast<Local>(i)] = other;
+    for (const Local row : system_.unknown_components()) kind[row] = other;
   }
   touched.doImport(entries, jump.import(), Tpetra::INSERT);
   return touched;
@@ -132,7 +130,7 @@ std::vector<DirichletElimination::PrescribedRow> DirichletElimination::rows_to_e
                                                                                          const Vector& kinds) const
 {
   const auto kind = view(kinds);
-  const auto dimension = static_cast<Local>(problem_.dimension());
+  const auto dimension = static_cast<Local>(system_.dimension());
   std::vector<char> prescribed(static_cast<std::size_t>(block.size), 0);
   for (std::size_t r = 0; r < block.row.size(); ++r)
     if (kind[block.row[r]] == skew)
@@ -150,8 +148,8 @@ std::vector<DirichletElimination::PrescribedRow> DirichletElimination::rows_to_e
 
 void DirichletElimination::choose(Global few)
 {
-  const auto& jump = problem_.jump();
-  const auto& comm = problem_.communicator();
+  const auto& jump = system_.jump();
+  const auto& comm = system_.communicator();
   const Vector kinds = kinds_of_rows();
   Vector eliminated(jump.touched_rows());
   long long chosen = 0;
@@ -181,7 +179,7 @@ void DirichletElimination::choose(Global few)
 
 DirichletElimination::Part DirichletElimination::part(std::size_t subdomain) const
 {
-  const auto& block = problem_.jump().blocks()[subdomain];
+  const auto& block = system_.jump().blocks()[subdomain];
   const auto& body = subdomains_[subdomain];
   Part result;
   std::vector<std::size_t> kept;
@@ -191,9 +189,9 @@ DirichletElimination::Part DirichletElimination::part(std::size_t subdomain) con
       result.number.push_back(number);
     }
   result.w = compliance(block, kept, body);
-  result.first = problem_.clusters().first(subdomain);
+  result.first = system_.clusters().first(subdomain);
   if (body.prescribed().empty()) return result;
-  const auto& kernel = problem_.clusters().subdomains()[subdomain]->kernel();
+  const auto& kernel = system_.clusters().subdomains()[subdomain]->kernel();
   result.h = Eigen::MatrixXd::Zero(kernel.cols(), static_cast<Eigen::Index>(kept.size()));
   result.c.resize(kernel.cols(), kernel.cols());
   for (Eigen::Index k = 0; k < kernel.cols(); ++k) {
@@ -219,23 +217,23 @@ Eigen::VectorXd DirichletElimination::at_prescribed(std::size_t subdomain, const
 
 Vector DirichletElimination::reduce(const Vector& d, Eigen::VectorXd& e) const
 {
-  const auto& jump = problem_.jump();
+  const auto& jump = system_.jump();
   Vector touched(jump.touched_rows());
   touched.doImport(d, jump.import(), Tpetra::INSERT);
   std::vector<Eigen::VectorXd> u;
   Eigen::VectorXd by_supports = Eigen::VectorXd::Zero(e.size());
-  collectively(problem_.communicator(), [&] {
+  collectively(system_.communicator(), [&] {
     for (std::size_t s = 0; s < rows_.size(); ++s) {
       const auto& body = subdomains_[s];
-      const auto& kernel = problem_.clusters().subdomains()[s]->kernel();
+      const auto& kernel = system_.clusters().subdomains()[s]->kernel();
       u.emplace_back(Eigen::VectorXd::Zero(jump.blocks()[s].size));
       if (rows_[s].empty()) continue;
       u[s] = body.displacement(at_prescribed(s, view(std::as_const(touched))), std::move(u[s]));
-      by_supports.segment(problem_.clusters().first(s), kernel.cols()) +=
+      by_supports.segment(system_.clusters().first(s), kernel.cols()) +=
           kernel(body.prescribed(), Eigen::all).transpose() * body.reactions(u[s]);
     }
   });
-  problem_.communicator().sum_in_place({by_supports.data(), static_cast<std::size_t>(by_supports.size())});
+  system_.communicator().sum_in_place({by_supports.data(), static_cast<std::size_t>(by_supports.size())});
   e -= by_supports;
   Vector result = jump.apply(u);
   result.update(1, d, -1);
@@ -247,20 +245,19 @@ Vector DirichletElimination::reduce(const Vector& d, Eigen::VectorXd& e) const
 
 void DirichletElimination::complete(const Vector& d, const Eigen::VectorXd& nu, Vector& x) const
 {
-  const auto& jump = problem_.jump();
+  const auto& jump = system_.jump();
   for (std::size_t i = 0; i < number_.size(); ++i)
     if (number_[i] < 0) view(x)[static_cast<Eigen::Index>(i)] = 0;
   const auto forces = jump.apply_transpose(x);
   Vector touched(jump.touched_rows()), found(jump.touched_rows());
   touched.doImport(d, jump.import(), Tpetra::INSERT);
-  collectively(problem_.communicator(), [&] {
+  collectively(system_.communicator(), [&] {
     for (std::size_t s = 0; s < rows_.size(); ++s) {
       if (rows_[s].empty()) continue;
       const auto& body = subdomains_[s];
-      const auto& kernel = problem_.clusters().subdomains()[s]->kernel();
+      const auto& kernel = system_.clusters().subdomains()[s]->kernel();
       Eigen::VectorXd values = at_prescribed(s, view(std::as_const(touched)));
-      if (nu.size() > 0)
-        values -= kernel(body.prescribed(), Eigen::all) * nu.segment(problem_.clusters().first(s), kernel.cols());
+      if (nu.size() > 0) values -= kernel(body.prescribed(), Eigen::all) * nu.segment(system_.clusters().first(s), kernel.cols());
       const Eigen::VectorXd left = body.reactions(body.displacement(values, forces[s])) - forces[s](body.prescribed());
       for (std::size_t r = 0; r < rows_[s].size(); ++r)
         view(found)[rows_[s][r].row] = left[static_cast<Eigen::Index>(r)] / rows_[s][r].coefficient;

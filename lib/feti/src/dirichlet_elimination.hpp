@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "feti/direct_solver.hpp"
-#include "feti/dual_problem.hpp"
+#include "feti/dual_system.hpp"
 
 namespace mortise::feti {
 
@@ -43,8 +43,8 @@ class ConstrainedSubdomain {
 /// support; none if there are no more than `few`. What is left is over the others.
 class DirichletElimination {
  public:
-  /// The problem outlives it. Throws as ConstrainedSubdomain does. Collective.
-  DirichletElimination(const DualProblem& problem, Global few);
+  /// The system outlives it. Throws as ConstrainedSubdomain does. Collective.
+  DirichletElimination(const DualSystem& system, Global few);
 
   /// Rows that are left, over all ranks, and their numbers: of each owned row, and of each row of jump().touched_rows(); -1 for
   /// an eliminated one.
@@ -78,7 +78,7 @@ class DirichletElimination {
   void choose(Global few);
   Eigen::VectorXd at_prescribed(std::size_t subdomain, const Eigen::Ref<const Eigen::VectorXd>& touched) const;
 
-  const DualProblem& problem_;
+  const DualSystem& system_;
   std::vector<std::vector<PrescribedRow>> rows_;  // of each subdomain
   std::vector<ConstrainedSubdomain> subdomains_;
   Global count_ = 0;

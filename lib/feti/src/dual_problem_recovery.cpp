@@ -15,87 +15,71 @@ namespace mortise::feti {
 
 Eigen::VectorXd DualProblem::forces(const Vector& lambda) const
 {
-  return view(lambda).cwiseProduct(RowScaling::of(*jump_));
+  return view(lambda).cwiseProduct(RowScaling::of(jump()));
 }
 
 Vector DualProblem::multipliers(const Eigen::VectorXd& forces) const
 {
-  Vector lambda(jump_->rows());
-  view(lambda) = forces.cwiseQuotient(RowScaling::of(*jump_));
+  Vector lambda(jump().rows());
+  view(lambda) = forces.cwiseQuotient(RowScaling::of(jump()));
   return lambda;
 }
 
 Eigen::VectorXd DualProblem::gaps(const Vector& gradient, const Eigen::VectorXd& nu) const
 {
   Vector reaction(gradient, Teuchos::Copy);
-  equality_->add_transpose(1, nu, reaction);
-  return view(reaction).cwiseQuotient(RowScaling::of(*jump_));
+  equality().add_transpose(1, nu, reaction);
+  return view(reaction).cwiseQuotient(RowScaling::of(jump()));
 }
 
 Vector DualProblem::gradient(const Eigen::VectorXd& gaps, const Eigen::VectorXd& nu) const
 {
-  Vector result(jump_->rows());
-  view(result) = gaps.cwiseProduct(RowScaling::of(*jump_));
-  equality_->add_transpose(-1, nu, result);
+  Vector result(jump().rows());
+  view(result) = gaps.cwiseProduct(RowScaling::of(jump()));
+  equality().add_transpose(-1, nu, result);
   return result;
 }
 
 Eigen::VectorXd DualProblem::jumps(const std::vector<Eigen::VectorXd>& u) const
 {
-  const Vector scaled = jump_->apply(u);
-  return view(scaled).cwiseQuotient(RowScaling::of(*jump_));
+  const Vector scaled = jump().apply(u);
+  return view(scaled).cwiseQuotient(RowScaling::of(jump()));
 }
 
 Eigen::VectorXd DualProblem::given_way(const Vector& lambda) const
 {
-  return view(lambda).cwiseProduct(jump_->compliance()).cwiseQuotient(RowScaling::of(*jump_));
+  return view(lambda).cwiseProduct(jump().compliance()).cwiseQuotient(RowScaling::of(jump()));
 }
 
 std::vector<double> DualProblem::radii(std::span<const double> slip_bounds) const
 {
   std::vector<double> radii(slip_bounds.begin(), slip_bounds.end());
-  for (std::size_t i = 0; i < radii.size(); ++i) radii[i] /= RowScaling::of(*jump_)[set_.discs()[i].normal];
+  for (std::size_t i = 0; i < radii.size(); ++i) radii[i] /= RowScaling::of(jump())[set().discs()[i].normal];
   return radii;
 }
 
 std::vector<double> DualProblem::slip_bounds(const qp::FeasibleSet& set) const
 {
   std::vector<double> forces;
-  for (const auto& disc : set.discs()) forces.push_back(RowScaling::of(*jump_)[disc.normal] * disc.radius);
+  for (const auto& disc : set.discs()) forces.push_back(RowScaling::of(jump())[disc.normal] * disc.radius);
   return forces;
+}
+
+std::vector<Eigen::VectorXd> DualProblem::elastic(const Vector& lambda) const
+{
+  auto elastic = jump().apply_transpose(lambda);
+  for (std::size_t s = 0; s < elastic.size(); ++s) elastic[s] = load()[s] - elastic[s];
+  system_->clusters().apply_inverse(elastic);
+  return elastic;
 }
 
 std::vector<Eigen::VectorXd> DualProblem::displacement(const Vector& lambda, const Eigen::VectorXd& nu) const
 {
-  const auto& clusters = system_.clusters;
-  const auto values = view(lambda);
-  if (comm_.any(!last_ || last_->lambda != values)) {
-    auto elastic = jump_->apply_transpose(lambda);
-    for (std::size_t s = 0; s < elastic.size(); ++s) elastic[s] = load()[s] - elastic[s];
-    clusters.apply_inverse(elastic);
-    last_.emplace(Elastic{values, std::move(elastic)});
-  }
-  return less_motion(last_->displacement, nu);
+  return system_->less_motion(elastic(lambda), nu);
 }
 
-std::vector<Eigen::VectorXd> DualProblem::displacement_of_product(const Vector& lambda, const Eigen::VectorXd& nu) const
-{
-  const auto* response = hessian_->response(lambda);
-  if (comm_.any(!response)) return displacement(lambda, nu);
-  auto u = loaded_;
-  for (std::size_t s = 0; s < u.size(); ++s) u[s] -= (*response)[s];
-  return less_motion(std::move(u), nu);
-}
-
-// u - R nu.
-std::vector<Eigen::VectorXd> DualProblem::less_motion(std::vector<Eigen::VectorXd> u, const Eigen::VectorXd& nu) const
-{
-  const auto& clusters = system_.clusters;
-  for (std::size_t s = 0; s < u.size(); ++s) u[s] -= clusters.motion(s, nu.segment(clusters.first(s), clusters.modes()));
-  return u;
-}
-
-Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::VectorXd& nu, double negligible_force) const
+Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::VectorXd& nu, const std::vector<Eigen::VectorXd>& u,
+                                          double negligible_force) const
 {
   constexpr double no_force = 1e-9;  // of the largest contact force: the next node may just touch
   // Of that on the lighter body, for what turns, as in drives.cpp: so much loads typed with six digits turn it by, and nodes
@@ -104,34 +88,35 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
   // Of the largest jump: beside a gap like this so small a force is an error of the solution.
   constexpr double gap_beside_force = 0.01;
   constexpr Eigen::Index most = 600;  // amplitudes: more would take seconds
-  const auto& contacts = constraints_.contacts;
+  const auto& contacts = constraints_->contacts;
+  const auto& comm = communicator();
+  const auto& decomposition = system_->decomposition();
   const bool unbonded = std::find(contacts.bonded.begin(), contacts.bonded.end(), false) != contacts.bonded.end();
-  if (!comm_.any(unbonded)) return nu;
-  const Bodies bodies = aggregate(decomposition_, system_.clusters, system_.kinematics, load(), comm_);
+  if (!comm.any(unbonded)) return nu;
+  const Bodies bodies = aggregate(decomposition, system_->clusters(), system_->subdomains().kinematics, load(), comm);
   if (bodies.aggregate.cols() > most) return nu;
 
-  const Local first = jump_->ranges().dirichlet, count = jump_->ranges().end - first;
-  const auto kernels = system_.clusters.kernel_dimension();
-  const Eigen::VectorXd unscale = RowScaling::of(*jump_).segment(first, count).cwiseInverse();
-  const SparseMatrix g = equality_->local().middleCols(first, count);
+  const Local first = jump().ranges().dirichlet, count = jump().ranges().end - first;
+  const auto kernels = system_->clusters().kernel_dimension();
+  const Eigen::VectorXd unscale = RowScaling::of(jump()).segment(first, count).cwiseInverse();
+  const SparseMatrix g = equality().local().middleCols(first, count);
   const SparseMatrix rows_of_bodies =
       unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.transpose()).leftCols(kernels) * bodies.aggregate);
-  const auto u = displacement(lambda, nu);
   const Eigen::VectorXd force = forces(lambda), jump = jumps(u);
   Eigen::VectorXd normal_force = Eigen::VectorXd::Zero(count);
-  for (const auto& rows : node_rows_) normal_force[rows.normal - first] = std::abs(force[rows.normal]);
-  const double largest = comm_.max(count > 0 ? normal_force.maxCoeff() : 0.0);
+  for (const auto& rows : node_rows()) normal_force[rows.normal - first] = std::abs(force[rows.normal]);
+  const double largest = comm.max(count > 0 ? normal_force.maxCoeff() : 0.0);
   double largest_jump = 0;
-  for (const auto& rows : node_rows_) largest_jump = std::max(largest_jump, std::abs(jump[rows.normal]));
-  largest_jump = comm_.max(largest_jump);
-  const Eigen::VectorXd now = mean_amplitudes(decomposition_, bodies, u, comm_);
+  for (const auto& rows : node_rows()) largest_jump = std::max(largest_jump, std::abs(jump[rows.normal]));
+  largest_jump = comm.max(largest_jump);
+  const Eigen::VectorXd now = mean_amplitudes(decomposition, bodies, u, comm);
   // The way back if what turns counts forces as none that travellers do not.
   const auto way_back = [&](const std::vector<bool>& travel) {
-    const Eigen::VectorXd on_lighter = largest_on_bodies(rows_of_bodies, normal_force, travel, comm_);
+    const Eigen::VectorXd on_lighter = largest_on_bodies(rows_of_bodies, normal_force, travel, comm);
     FeltMotions felt{rows_of_bodies, Eigen::VectorXd::Ones(count),
                      Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity())};
     for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
-      const auto& rows = node_rows_[i];
+      const auto& rows = node_rows()[i];
       const Local row = rows.normal - first;
       const double gap = contacts.rows.bound[contacts.nodes[i].row] - jump[rows.normal];
       const bool stands_off = gap > gap_beside_force * largest_jump && force[rows.normal] < no_moment * largest;
@@ -141,7 +126,7 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
       felt.closed.segment(row, 1 + rows.tangents).setZero();
       felt.gap[row] = gap;
     }
-    return towards_rest(felt, now, comm_);
+    return towards_rest(felt, now, comm);
   };
   Eigen::VectorXd change = way_back(std::vector<bool>(bodies.frames.size(), false));
   const auto travel = travellers(change, bodies);
@@ -151,106 +136,49 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
   return result;
 }
 
-std::string DualProblem::unbounded_rigid_mode(const Eigen::VectorXd& nu) const
-{
-  const auto frames = body_frames(decomposition_, comm_);
-  RigidMotion fastest;
-  double speed = -1;
-  for (std::size_t b = 0; b < frames.size(); ++b) {
-    const auto motion =
-        rigid_part(decomposition_, system_.clusters, system_.kinematics, frames[b], static_cast<int>(b), -nu, comm_);
-    const double v = motion.translation.norm() + motion.rotation.norm() * frames[b].radius;
-    if (v <= speed) continue;
-    fastest = motion;
-    speed = v;
-  }
-  const auto body = static_cast<std::size_t>(fastest.body);
-  return fmt::format("body \"{}\" {}", decomposition_.catalogue.bodies[body].name, describe(fastest, frames[body].radius));
-}
-
-Point DualProblem::gauge_force(const Vector& lambda) const
-{
-  Vector gauges(lambda.getMap());
-  const auto& ranges = jump_->ranges();
-  // Owned rows keep the order of the gauges; which of them this rank owns says the row's number.
-  const Global first = jump_->contact_rows().second;
-  {
-    auto value = view(gauges);
-    const auto from = view(lambda);
-    for (Local row = ranges.extra; row < ranges.end; ++row) {
-      const auto& motion = gauged_[static_cast<std::size_t>(lambda.getMap()->getGlobalElement(row) - first)];
-      if (motion.sliding || motion.resistance < exactly_free) value[row] = from[row];
-    }
-  }
-  std::vector<double> sum(3, 0.0);
-  const auto dimension = static_cast<std::size_t>(decomposition_.catalogue.dimension);
-  for (const auto& f : jump_->apply_transpose(gauges))
-    for (Eigen::Index i = 0; i < f.size(); ++i) sum[static_cast<std::size_t>(i) % dimension] -= f[i];
-  comm_.sum_in_place(sum);
-  return {sum[0], sum[1], sum[2]};
-}
-
-bool DualProblem::gauges_hold_free_motions() const
-{
-  return std::all_of(gauged_.begin(), gauged_.end(), [](const FreeMotion& motion) { return motion.resistance < exactly_free; });
-}
-
-std::vector<std::vector<Eigen::VectorXd>> DualProblem::gauged_motions() const
-{
-  std::vector<std::vector<Eigen::VectorXd>> result;
-  for (const auto& gauged : gauged_) {
-    auto& motion = result.emplace_back(decomposition_.subdomains.size());
-    for (std::size_t s = 0; s < motion.size(); ++s)
-      for (const auto& part : gauged.motions)
-        if (part.body == decomposition_.subdomains[s].body)
-          motion[s] = sample(part, decomposition_.subdomains[s].mesh.points, dimension());
-  }
-  return result;
-}
-
 std::vector<double> DualProblem::loads_of_bodies() const
 {
-  std::vector<double> loads(decomposition_.catalogue.bodies.size(), 0.0);
+  std::vector<double> loads(system_->decomposition().catalogue.bodies.size(), 0.0);
   for (std::size_t s = 0; s < load().size(); ++s)
     for (Eigen::Index i = 0; i < load()[s].size(); i += dimension())
-      loads[static_cast<std::size_t>(decomposition_.subdomains[s].body)] += load()[s].segment(i, dimension()).norm();
-  comm_.sum_in_place(loads);
+      loads[static_cast<std::size_t>(system_->decomposition().subdomains[s].body)] += load()[s].segment(i, dimension()).norm();
+  communicator().sum_in_place(loads);
   return loads;
 }
 
 double DualProblem::imbalance(const std::vector<Eigen::VectorXd>& u, const Vector& lambda, double negligible_force) const
 {
-  const auto forces = jump_->apply_transpose(lambda);
+  const auto forces = jump().apply_transpose(lambda);
   std::vector<Eigen::VectorXd> given;
   for (std::size_t s = 0; s < forces.size(); ++s) given.push_back(load()[s] - forces[s]);
-  const auto inner = system_.clusters.inner_forces(given);
+  const auto inner = system_->clusters().inner_forces(given);
   double residual = 0, size = 0;
   for (std::size_t s = 0; s < u.size(); ++s) {
-    residual += (system_.clusters.subdomains()[s]->apply(u[s]) + forces[s] - load()[s] + inner[s]).squaredNorm();
+    residual += (system_->clusters().subdomains()[s]->apply(u[s]) + forces[s] - load()[s] + inner[s]).squaredNorm();
     size += load()[s].squaredNorm() + forces[s].squaredNorm();
     for (Eigen::Index i = 0; i < u[s].size(); ++i) {  // what rounding makes of a rigid motion is no force
-      const double k = system_.nodal_stiffness[s][static_cast<std::size_t>(i / decomposition_.catalogue.dimension)];
+      const double k = system_->subdomains().nodal_stiffness[s][static_cast<std::size_t>(i / dimension())];
       size += std::pow(1e-6 * k * u[s][i], 2);
     }
   }
-  size = std::max(comm_.sum(size), negligible_force * negligible_force);
-  return size > 0 ? std::sqrt(comm_.sum(residual) / size) : 0;
+  size = std::max(communicator().sum(size), negligible_force * negligible_force);
+  return size > 0 ? std::sqrt(communicator().sum(residual) / size) : 0;
 }
 
 std::vector<double> DualProblem::shortenings(const Eigen::VectorXd& nu) const
 {
   std::vector<double> result;
-  Eigen::Index next = kernel_dimension();
-  for (const auto& section : constraints_.pretension_sections)
+  Eigen::Index next = system_->kernel_dimension();
+  for (const auto& section : constraints_->pretension_sections)
     result.push_back(section.preload.force ? nu[next++] : section.preload.shortening);
   return result;
 }
 
 Eigen::Index DualProblem::first_coupling_motion() const
 {
-  const auto& sections = constraints_.pretension_sections;
+  const auto& sections = constraints_->pretension_sections;
   const auto unknown = [](const auto& section) { return section.preload.force.has_value(); };
-  return kernel_dimension() + std::count_if(sections.begin(), sections.end(), unknown);
+  return system_->kernel_dimension() + std::count_if(sections.begin(), sections.end(), unknown);
 }
 
 }  // namespace mortise::feti

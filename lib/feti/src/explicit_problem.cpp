@@ -61,7 +61,7 @@ std::vector<int> rows_of_springs(const DirichletElimination& elimination, const 
   return {all.begin(), all.end()};
 }
 
-// W, H and C of the whole problem.
+// W, H and C of the whole system.
 struct WholeMatrices {
   Eigen::MatrixXd w, h, c;
 
@@ -98,18 +98,18 @@ struct WholeMatrices {
 
 }  // namespace
 
-ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
-    : problem_(problem),
-      elimination_(std::make_unique<DirichletElimination>(problem, few)),
-      rows_(std::make_unique<RowsOnRoot>(elimination_->number(), problem.communicator()))
+ExplicitProblem::ExplicitProblem(const DualSystem& system, Global few)
+    : system_(system),
+      elimination_(std::make_unique<DirichletElimination>(system, few)),
+      rows_(std::make_unique<RowsOnRoot>(elimination_->number(), system.communicator()))
 {
-  const auto& comm = problem.communicator();
-  const auto& g = problem.equality().local();
-  const auto parts = parts_on_root(*elimination_, problem.jump().blocks().size(), comm);
+  const auto& comm = system.communicator();
+  const auto& g = system.equality().local();
+  const auto parts = parts_on_root(*elimination_, system.jump().blocks().size(), comm);
   const auto columns = columns_on_root(*elimination_, g, comm);
-  const auto set = rows_->to_root(problem.set());
-  const auto giving = compliance_on_root(*elimination_, problem.jump(), comm);
-  const auto* springs = problem.springs();
+  const auto set = rows_->to_root(system.set());
+  const auto giving = compliance_on_root(*elimination_, system.jump(), comm);
+  const auto* springs = system.springs();
   const auto spring_rows = springs ? rows_of_springs(*elimination_, *springs) : std::vector<int>();
   collectively(comm, [&] {
     if (!comm.root()) return;
@@ -123,7 +123,7 @@ ExplicitProblem::ExplicitProblem(const DualProblem& problem, Global few)
     separated_ = newton_->separated();
   });
   separated_ = comm.any(separated_);
-  eliminated_ = elimination_->count() < problem.dual_unknowns();
+  eliminated_ = elimination_->count() < system.dual_unknowns();
 }
 
 ExplicitProblem::~ExplicitProblem() = default;
@@ -132,8 +132,8 @@ void ExplicitProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETran
 {
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
     const auto in = x.getVector(column);
-    Eigen::VectorXd motions = Eigen::VectorXd::Zero(problem_.equality().size());
-    Vector result(problem_.jump().rows());
+    Eigen::VectorXd motions = Eigen::VectorXd::Zero(system_.equality().size());
+    Vector result(system_.jump().rows());
     view(result) = rows_->map_on_root(view(elimination_->reduce(*in, motions)),
                                       [&](const Eigen::VectorXd& all) { return newton_->inverse_times(all); });
     elimination_->complete(*in, {}, result);
@@ -144,7 +144,7 @@ void ExplicitProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETran
 ExplicitProblem::Result ExplicitProblem::solve(const Vector& linear, Eigen::VectorXd e, const qp::FeasibleSet& set,
                                                const Result* near) const
 {
-  const auto& comm = problem_.communicator();
+  const auto& comm = system_.communicator();
   const Eigen::VectorXd right_side = e;
   const auto reduced = rows_->to_root(view(elimination_->reduce(linear, e)));
   const auto start = near ? rows_->to_root(view(near->x)) : std::vector<double>();
@@ -167,13 +167,13 @@ ExplicitProblem::Result ExplicitProblem::solve(const Vector& linear, Eigen::Vect
   });
   comm.broadcast(nu);
   comm.broadcast(outcome);
-  Result result{Vector(problem_.jump().rows()), map(nu),         outcome[0] == 1,
-                Vector(problem_.jump().rows()), outcome[1] == 1, outcome[2] == 1};
+  Result result{Vector(system_.jump().rows()), map(nu),         outcome[0] == 1,
+                Vector(system_.jump().rows()), outcome[1] == 1, outcome[2] == 1};
   view(result.x) = rows_->from_root(std::move(x));
   view(*result.reaction) = rows_->from_root(std::move(reaction));
   elimination_->complete(linear, result.nu, result.x);
-  const auto& equality = problem_.equality();
-  if (!comm.any(!problem_.set().constrained().empty()) && equality.size() > 0) {
+  const auto& equality = system_.equality();
+  if (!comm.any(!system_.set().constrained().empty()) && equality.size() > 0) {
     // A body may be free to change its shape and have no other forces than those of G x = e: rounding of d is large beside them.
     const Eigen::VectorXd lacking = right_side - equality.apply(result.x);
     equality.add_transpose(1, equality.solve(lacking), result.x);

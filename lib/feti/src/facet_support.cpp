@@ -242,8 +242,8 @@ std::optional<std::string> supported_by_facets(const DualProblem& problem, const
   const auto& comm = problem.communicator();
   const auto& contacts = problem.constraints().contacts;
   if (!comm.any(!bounds.empty())) return {};
-  Bodies bodies = aggregate(decomposition, problem.clusters(), kinematics, problem.load(), comm);
-  const SparseMatrix g = coarse_rows(problem.jump(), problem.clusters(), comm);
+  Bodies bodies = aggregate(decomposition, problem.system().clusters(), kinematics, problem.load(), comm);
+  const SparseMatrix g = coarse_rows(problem.jump(), problem.system().clusters(), comm);
   const BodyRows rows = body_rows(problem.jump(), bodies, g, problem.constraints(),
                                   unknowns(problem.constraints(), problem.jump(), problem.dimension()), comm);
   Eigen::VectorXd slid = problem.jumps(displacement);

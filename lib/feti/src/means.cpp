@@ -11,10 +11,10 @@ namespace mortise::feti {
 
 namespace {
 
-qp::ExplicitProgramme sparse_programme(const DualProblem& problem, bool slender)
+qp::ExplicitProgramme sparse_programme(const DualSystem& system, bool slender)
 {
   using Result = qp::ExplicitProgramme::Result;
-  const auto matrices = std::make_shared<SparseProblem>(problem, slender);
+  const auto matrices = std::make_shared<SparseProblem>(system, slender);
   const auto solve = [matrices](const qp::RightHandSide& right, const qp::FeasibleSet& set) {
     return matrices->solve(right, set);
   };
@@ -24,10 +24,10 @@ qp::ExplicitProgramme sparse_programme(const DualProblem& problem, bool slender)
   return {matrices, solve, go_on, true, {}, slender};
 }
 
-qp::ExplicitProgramme dense_programme(const DualProblem& problem)
+qp::ExplicitProgramme dense_programme(const DualSystem& system)
 {
   using Result = qp::ExplicitProgramme::Result;
-  const auto matrices = std::make_shared<ExplicitProblem>(problem);
+  const auto matrices = std::make_shared<ExplicitProblem>(system);
   const auto solve = [matrices](const qp::RightHandSide& right, const qp::FeasibleSet& set) {
     return matrices->solve(right.b, right.e, set);
   };
@@ -37,29 +37,29 @@ qp::ExplicitProgramme dense_programme(const DualProblem& problem)
 }
 
 // The largest of the subdomains. Collective.
-double inaccuracy(const DualProblem& problem)
+double inaccuracy(const DualSystem& system)
 {
   double result = 0;
-  for (const auto& subdomain : problem.clusters().subdomains()) result = std::max(result, subdomain->inaccuracy());
-  return problem.communicator().max(result);
+  for (const auto& subdomain : system.clusters().subdomains()) result = std::max(result, subdomain->inaccuracy());
+  return system.communicator().max(result);
 }
 
 }  // namespace
 
-qp::Means means_of(const DualProblem& problem, qp::Budget& budget)
+qp::Means means_of(const DualSystem& system, qp::ActiveSetPreconditioner* preconditioner, qp::Budget& budget)
 {
-  const auto make_explicit = [&problem] {
-    const bool slender = inaccuracy(problem) > inaccurate;
-    const auto turn = SparseProblem::turn(problem, slender);
-    if (turn == SparseProblem::Turn::first) return sparse_programme(problem, slender);
-    if (turn == SparseProblem::Turn::never) return dense_programme(problem);
+  const auto make_explicit = [&system] {
+    const bool slender = inaccuracy(system) > inaccurate;
+    const auto turn = SparseProblem::turn(system, slender);
+    if (turn == SparseProblem::Turn::first) return sparse_programme(system, slender);
+    if (turn == SparseProblem::Turn::never) return dense_programme(system);
     // F as a dense matrix is large in soft motions: little may be left in it of what thin cells do. And each of its columns is a
     // solution that has to be refined.
-    auto programme = slender ? sparse_programme(problem, true) : dense_programme(problem);
-    programme.instead = [&problem, slender] { return slender ? dense_programme(problem) : sparse_programme(problem, false); };
+    auto programme = slender ? sparse_programme(system, true) : dense_programme(system);
+    programme.instead = [&system, slender] { return slender ? dense_programme(system) : sparse_programme(system, false); };
     return programme;
   };
-  return {budget, problem.preconditioner(), make_explicit};
+  return {budget, preconditioner, make_explicit};
 }
 
 }  // namespace mortise::feti

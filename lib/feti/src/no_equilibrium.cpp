@@ -16,10 +16,10 @@ void no_equilibrium(const DualProblem& problem, const Eigen::VectorXd& nu, bool 
     throw Error(
         ExitStatus::bad_input,
         "no forces were found that balance the loads, though nothing proves that there are none: " +
-            problem.unbounded_rigid_mode(nu) +
+            problem.system().unbounded_rigid_mode(nu) +
             " nearly freely. Support that body, or look at the direction of the loads, of which a small part may drive it, "
             "and at the units of young_modulus and of sizes: stiffnesses that differ by 1e12 are too far apart for rounding");
-  throw Error(ExitStatus::no_equilibrium, "no equilibrium: " + problem.unbounded_rigid_mode(nu) +
+  throw Error(ExitStatus::no_equilibrium, "no equilibrium: " + problem.system().unbounded_rigid_mode(nu) +
                                               "; contacts can only push and friction is limited, so nothing holds it against "
                                               "the loads. Support it, or look at the direction of the loads and at the friction");
 }

@@ -14,7 +14,7 @@ constexpr double none_part = 1e-10;  // of the largest load of a body, or pressu
 // The least load of the bodies of each group, infinite where none is loaded. Collective.
 std::vector<double> least_loads(const DualProblem& problem)
 {
-  const auto& groups = problem.groups();
+  const auto& groups = problem.system().groups();
   auto loads = problem.loads_of_bodies();
   auto group = groups.of_body;
   const auto& constraints = problem.constraints();
@@ -75,7 +75,7 @@ void Pressures::find_parts()
     auto operator<=>(const Part&) const = default;
   };
   const auto& nodes = problem_.constraints().contacts.nodes;
-  const auto& groups = problem_.groups();
+  const auto& groups = problem_.system().groups();
   std::vector<Part> own;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     own.push_back({nodes[i].contact, std::max(groups.of_row[static_cast<std::size_t>(problem_.node_rows()[i].normal)], 0)});

@@ -66,14 +66,14 @@ double work_of_sparse_solution(double entries, double unknowns)
   return sparse_problems * (2 * l * l / std::max(unknowns, 1.0) + steps_of_gmres * slow * 4 * l);
 }
 
-SparseProblem::Turn SparseProblem::turn(const DualProblem& problem, bool slender)
+SparseProblem::Turn SparseProblem::turn(const DualSystem& system, bool slender)
 {
-  const auto& comm = problem.communicator();
-  const auto& subdomains = problem.clusters().subdomains();
-  auto entries = entries_of_rows(problem.jump());
-  bool dense = problem.springs() || problem.clusters().kinds() > 0 || problem.equality().size() != problem.kernel_dimension();
-  const auto& jump = problem.jump();
-  const Global end = problem.gauges_hold_free_motions() ? jump.contact_rows().second : problem.dual_unknowns();
+  const auto& comm = system.communicator();
+  const auto& subdomains = system.clusters().subdomains();
+  auto entries = entries_of_rows(system.jump());
+  bool dense = system.springs() || system.clusters().kinds() > 0 || system.equality().size() != system.kernel_dimension();
+  const auto& jump = system.jump();
+  const Global end = system.gauges_hold_free_motions() ? jump.contact_rows().second : system.dual_unknowns();
   for (std::size_t i = 0; i < entries.size(); ++i)
     dense = dense || (entries[i] > most_entries && jump.rows()->getGlobalElement(static_cast<Local>(i)) < end);
   double unknowns = 0, factors = 0;
@@ -82,13 +82,13 @@ SparseProblem::Turn SparseProblem::turn(const DualProblem& problem, bool slender
     unknowns += subdomain->size();
     factors += static_cast<double>(subdomain->original().factor_bytes()) / sizeof(double);
   }
-  const auto constrained = problem.set().constrained();
+  const auto constrained = system.set().constrained();
   for (const Local i : constrained) entries[static_cast<std::size_t>(i)] = 0;
   std::vector<double> sums{dense ? 1.0 : 0.0, unknowns, factors, static_cast<double>(constrained.size()),
                            static_cast<double>(std::count(entries.begin(), entries.end(), 1))};
   comm.sum_in_place(sums);
   const double closing = sums[3], single = sums[4];
-  const double rows = static_cast<double>(problem.dual_unknowns()) - (single > few_supports ? single : 0);
+  const double rows = static_cast<double>(system.dual_unknowns()) - (single > few_supports ? single : 0);
   const double work = work_of_sparse_solution(sums[2], sums[1]);
   const bool quick = work < worth_of_sparse * work_of_dense_solution(rows - closing, closing);
   if (sums[0] > 0) return Turn::never;
@@ -96,15 +96,15 @@ SparseProblem::Turn SparseProblem::turn(const DualProblem& problem, bool slender
   return quick || slender || work < some_seconds ? Turn::second : Turn::never;
 }
 
-SparseProblem::SparseProblem(const DualProblem& problem, bool patient)
-    : problem_(problem), inverse_([this] { return make_inverse(); })
+SparseProblem::SparseProblem(const DualSystem& system, bool patient)
+    : system_(system), inverse_([this] { return make_inverse(); })
 {
-  const auto& comm = problem.communicator();
-  const auto& jump = problem.jump();
+  const auto& comm = system.communicator();
+  const auto& jump = system.jump();
   long long own = 0;
-  for (const auto& subdomain : problem.clusters().subdomains()) own += subdomain->size();
+  for (const auto& subdomain : system.clusters().subdomains()) own += subdomain->size();
   offset_.push_back(static_cast<int>(comm.offset(own)));
-  for (const auto& subdomain : problem.clusters().subdomains()) offset_.push_back(offset_.back() + subdomain->size());
+  for (const auto& subdomain : system.clusters().subdomains()) offset_.push_back(offset_.back() + subdomain->size());
   unknowns_ = static_cast<int>(comm.sum(own));
   const auto owned = jump.rows()->getMyGlobalIndices();
   std::vector<Global> number;
@@ -121,12 +121,12 @@ SparseProblem::SparseProblem(const DualProblem& problem, bool patient)
   }
   entries = feti::on_root(std::move(entries), comm);
   const auto compliance = rows_->to_root(jump.compliance());
-  const auto set = rows_->to_root(problem.set());
+  const auto set = rows_->to_root(system.set());
   SparseMatrix stiffness = stiffness_on_root(false);
   const auto motions = motions_on_root();
   collectively(comm, [&] {
     if (!comm.root()) return;
-    auto rows = assembled<SupportElimination::Rows>(entries, problem.dual_unknowns(), unknowns_);
+    auto rows = assembled<SupportElimination::Rows>(entries, system.dual_unknowns(), unknowns_);
     gauges_ = std::make_unique<Gauges>(rows, motions);
     elimination_ = std::make_unique<SupportElimination>(std::move(rows), as_vector(compliance), set);
     whole_ = std::make_unique<WholeProblem>(std::move(stiffness), *elimination_, patient);
@@ -138,8 +138,8 @@ SparseProblem::~SparseProblem() = default;
 // The matrix of all subdomains, lower triangle: K, or what K^+ is the inverse of. Nothing elsewhere. Collective.
 SparseMatrix SparseProblem::stiffness_on_root(bool regularised) const
 {
-  const auto& comm = problem_.communicator();
-  const auto& subdomains = problem_.clusters().subdomains();
+  const auto& comm = system_.communicator();
+  const auto& subdomains = system_.clusters().subdomains();
   std::vector<double> entries;
   SparseMatrix result;
   collectively(comm, [&] {
@@ -161,9 +161,9 @@ SparseMatrix SparseProblem::stiffness_on_root(bool regularised) const
 // The motions that gauges hold and nothing resists, as columns; none if facets resist any. Nothing elsewhere. Collective.
 Eigen::SparseMatrix<double> SparseProblem::motions_on_root() const
 {
-  const auto& comm = problem_.communicator();
-  if (!problem_.gauges_hold_free_motions()) return Eigen::SparseMatrix<double>(unknowns_, 0);
-  const auto motions = problem_.gauged_motions();
+  const auto& comm = system_.communicator();
+  if (!system_.gauges_hold_free_motions()) return Eigen::SparseMatrix<double>(unknowns_, 0);
+  const auto motions = system_.gauged_motions();
   std::vector<double> entries;
   for (std::size_t k = 0; k < motions.size(); ++k)
     for (std::size_t s = 0; s < motions[k].size(); ++s)
@@ -179,7 +179,7 @@ VectorXd SparseProblem::on_root(const std::vector<VectorXd>& parts) const
 {
   std::vector<double> own;
   for (const auto& part : parts) own.insert(own.end(), part.begin(), part.end());
-  return as_vector(feti::on_root(std::move(own), problem_.communicator()));
+  return as_vector(feti::on_root(std::move(own), system_.communicator()));
 }
 
 SparseProblem::Result SparseProblem::solve(const qp::RightHandSide& right, const qp::FeasibleSet& set) const
@@ -191,7 +191,7 @@ SparseProblem::Result SparseProblem::solve(const qp::RightHandSide& right, const
 SparseProblem::Result SparseProblem::go_on(const qp::RightHandSide& right, const Vector& linear, const VectorXd& e,
                                            const qp::FeasibleSet& set, const Result& near) const
 {
-  const auto& clusters = problem_.clusters();
+  const auto& clusters = system_.clusters();
   const VectorXd more = e - right.e;
   std::vector<VectorXd> push, f = right.f;
   for (std::size_t s = 0; s < f.size(); ++s) {
@@ -199,7 +199,7 @@ SparseProblem::Result SparseProblem::go_on(const qp::RightHandSide& right, const
     f[s] += push[s];
   }
   clusters.apply_inverse(push);
-  const Vector moved = problem_.jump().apply(push);
+  const Vector moved = system_.jump().apply(push);
   const VectorXd bound = right.c + view(right.b) - view(linear) + view(moved);
   return solve(f, bound, set, &near);
 }
@@ -207,7 +207,7 @@ SparseProblem::Result SparseProblem::go_on(const qp::RightHandSide& right, const
 SparseProblem::Result SparseProblem::solve(const std::vector<VectorXd>& f, const VectorXd& bound, const qp::FeasibleSet& set,
                                            const Result* near) const
 {
-  const auto& comm = problem_.communicator();
+  const auto& comm = system_.communicator();
   const VectorXd load = on_root(f);
   const bool known = near && near->reaction;
   const auto c = rows_->to_root(bound), start = known ? rows_->to_root(view(near->x)) : std::vector<double>(),
@@ -227,13 +227,13 @@ SparseProblem::Result SparseProblem::solve(const std::vector<VectorXd>& f, const
   });
   comm.broadcast(u);
   comm.broadcast(outcome);
-  Result result{Vector(problem_.jump().rows()), VectorXd::Zero(problem_.equality().size()), outcome[0] == 1,
-                Vector(problem_.jump().rows()), outcome[1] == 1};
+  Result result{Vector(system_.jump().rows()), VectorXd::Zero(system_.equality().size()), outcome[0] == 1,
+                Vector(system_.jump().rows()), outcome[1] == 1};
   view(result.x) = rows_->from_root(std::move(x));
   view(*result.reaction) = rows_->from_root(std::move(reaction));
 
-  const auto& clusters = problem_.clusters();  // R nu = K^+ (f - B'x) - u
-  std::vector<VectorXd> elastic = problem_.jump().apply_transpose(result.x);
+  const auto& clusters = system_.clusters();  // R nu = K^+ (f - B'x) - u
+  std::vector<VectorXd> elastic = system_.jump().apply_transpose(result.x);
   for (std::size_t s = 0; s < elastic.size(); ++s) elastic[s] = f[s] - elastic[s];
   clusters.apply_inverse(elastic);
   for (std::size_t s = 0; s < elastic.size(); ++s)
@@ -246,7 +246,7 @@ SparseProblem::Result SparseProblem::solve(const std::vector<VectorXd>& f, const
 // F^-1 on rank 0. Collective.
 std::unique_ptr<const WholeInverse> SparseProblem::make_inverse() const
 {
-  const auto& comm = problem_.communicator();
+  const auto& comm = system_.communicator();
   SparseMatrix regularised = stiffness_on_root(true);
   std::unique_ptr<const WholeInverse> inverse;
   collectively(comm, [&] {
@@ -259,7 +259,7 @@ void SparseProblem::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp
 {
   const auto& inverse = inverse_.get();
   for (std::size_t column = 0; column < x.getNumVectors(); ++column) {
-    Vector result(problem_.jump().rows());
+    Vector result(system_.jump().rows());
     view(result) = rows_->map_on_root(view(*x.getVector(column)), [&](const VectorXd& all) { return inverse->times(all); });
     y.getVectorNonConst(column)->update(alpha, result, beta);
   }

@@ -88,7 +88,7 @@ struct Dense {
 
   explicit Dense(const DualProblem& problem) : comm(problem.communicator()), rows(*problem.jump().rows())
   {
-    const auto size = static_cast<Eigen::Index>(problem.dual_unknowns());
+    const auto size = static_cast<Eigen::Index>(problem.system().dual_unknowns());
     f.resize(size, size);
     const auto& part = problem.equality().local();
     g = Eigen::MatrixXd::Zero(part.rows(), size);
@@ -144,11 +144,10 @@ TEST_P(Varied, HasTheInverseOfTheDualOperator)
 {
   const auto& [pieces, variant] = GetParam();
   const PressedStack stack(Point(1, 0.5, -10), pieces, variant);
-  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
-                      stack.context);
-  ExplicitProblem direct(problem, 0);
+  const auto problem = stack.problem();
+  ExplicitProblem direct(problem.system(), 0);
   const auto map = problem.hessian().getDomainMap();
-  for (Global row = 0; row < problem.dual_unknowns(); row += 7) {  // F^-1 F e_i = e_i
+  for (Global row = 0; row < problem.system().dual_unknowns(); row += 7) {  // F^-1 F e_i = e_i
     Vector unit(map), product(map), back(map);
     if (const Local i = map->getLocalElement(row); i != Teuchos::OrdinalTraits<Local>::invalid()) view(unit)[i] = 1;
     problem.hessian().apply(unit, product);
@@ -166,13 +165,12 @@ TEST_P(Varied, SolvesAsWithoutElimination)
 {
   const auto& [pieces, variant] = GetParam();
   const PressedStack stack(Point(1, 0.5, -10), pieces, variant);
-  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
-                      stack.context);
+  const auto problem = stack.problem();
   auto set = problem.set();
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
   const auto right = problem.right_hand_side();
-  const auto found = ExplicitProblem(problem, 0).solve(right->b, right->e, set);
+  const auto found = ExplicitProblem(problem.system(), 0).solve(right->b, right->e, set);
   ASSERT_TRUE(found.converged);
 
   const Dense dense(problem);
@@ -191,17 +189,16 @@ TEST_P(Varied, SolvesAsWithSparseMatrices)
   const auto& [pieces, variant] = GetParam();
   const PressedStack stack(Point(1, 0.5, -10), pieces, variant);
   if (variant.force) GTEST_SKIP() << "not for unknowns of their own";
-  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
-                      stack.context);
-  EXPECT_EQ(SparseProblem::turn(problem, false), SparseProblem::Turn::second);  // so few rows
+  const auto problem = stack.problem();
+  EXPECT_EQ(SparseProblem::turn(problem.system(), false), SparseProblem::Turn::second);  // so few rows
   auto set = problem.set();
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
-  const SparseProblem sparse(problem);
+  const SparseProblem sparse(problem.system());
   const auto right = problem.right_hand_side();
   const auto found = sparse.solve(*right, set);
   ASSERT_TRUE(found.converged);
-  const ExplicitProblem direct(problem);
+  const ExplicitProblem direct(problem.system());
   const auto expected = direct.solve(right->b, right->e, set);
   ASSERT_TRUE(expected.converged);
   const auto expect_near = [](const Vector& a, const Vector& b) {
@@ -226,7 +223,7 @@ TEST_P(Varied, SolvesAsWithSparseMatrices)
   EXPECT_TRUE(next.converged);
   expect_near(next.x, changed.x);
   // Matrices that have solved nothing go on from what others found, and know its states.
-  const auto other_next = SparseProblem(problem).go_on(*right, linear, e, set, expected);
+  const auto other_next = SparseProblem(problem.system()).go_on(*right, linear, e, set, expected);
   EXPECT_TRUE(other_next.converged);
   expect_near(other_next.x, changed.x);
 
@@ -244,13 +241,12 @@ TEST_P(Directly, SolvesAsFaceNewtonDoes)
 {
   const auto [push, pieces] = GetParam();
   const PressedStack stack(Point(push, 0, -10), pieces);
-  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
-                      stack.context);
+  const auto problem = stack.problem();
   auto set = problem.set();
   ASSERT_EQ(stack.comm.sum(static_cast<long long>(set.discs().size())), 16);
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   set.set_radii(std::vector<double>(set.discs().size(), std::numeric_limits<double>::infinity()));
-  const ExplicitProblem direct(problem);
+  const ExplicitProblem direct(problem.system());
   const auto right = problem.right_hand_side();
   const auto found = direct.solve(right->b, right->e, set);
   ASSERT_TRUE(found.converged);
@@ -261,7 +257,8 @@ TEST_P(Directly, SolvesAsFaceNewtonDoes)
   set.set_radii(radii);
   qp::Hessian hessian(problem.hessian(), 2000);
   const qp::Programme programme{hessian, problem.equality(), set};
-  const auto expected = qp::FaceNewton(programme, problem.preconditioner()).solve(*right, radii, nullptr, {}, {1e-10, {}}, {});
+  const auto lumped = problem.system().make_preconditioner();
+  const auto expected = qp::FaceNewton(programme, lumped.get()).solve(*right, radii, nullptr, {}, {1e-10, {}}, {});
   ASSERT_TRUE(expected.converged);
   Vector difference(found.x, Teuchos::Copy);
   difference.update(-1, expected.x, 1);
@@ -273,7 +270,7 @@ TEST_P(Directly, SolvesAsFaceNewtonDoes)
   // As a start it is the end.
   qp::Hessian again(problem.hessian(), 2000);
   const qp::Programme repeated{again, problem.equality(), set};
-  ExplicitProblem preconditioner(problem);
+  ExplicitProblem preconditioner(problem.system());
   const auto shown = qp::FaceNewton(repeated, &preconditioner)
                          .solve(*right, radii, nullptr, qp::Solution(found.x, found.x, found.nu), {1e-8, {}}, {});
   EXPECT_TRUE(shown.converged);
@@ -285,12 +282,11 @@ TEST(ExplicitProblem, TakesTheFactorizationThatIsAskedFor)
 {
   const PressedStack stack(Point(1, 0.5, -10), 2);
   const auto solve = [&](const std::string& factorization) {
-    DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load,
-                        {.factorization = factorization, .preconditioner = "none"}, stack.context);
+    const auto problem = stack.problem({.factorization = factorization, .preconditioner = "none"});
     auto set = problem.set();
     set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
     const auto right = problem.right_hand_side();
-    return Eigen::VectorXd(view(ExplicitProblem(problem, 0).solve(right->b, right->e, set).x));
+    return Eigen::VectorXd(view(ExplicitProblem(problem.system(), 0).solve(right->b, right->e, set).x));
   };
   const Eigen::VectorXd x = solve("cholmod");
   EXPECT_GT(stack.comm.sum(x.squaredNorm()), 0.01);
@@ -302,12 +298,11 @@ TEST(ExplicitProblem, TakesTheFactorizationThatIsAskedFor)
 TEST(ExplicitProblem, SaysWhereNothingBalancesTheLoads)
 {
   const PressedStack stack(Point(4.5, 0, -10), 1);  // friction holds 4
-  DualProblem problem(stack.decomposition, *stack.directory, stack.interface, stack.constraints, stack.system, stack.load, {},
-                      stack.context);
+  const auto problem = stack.problem();
   auto set = problem.set();
   set.set_coefficients(std::vector<double>(set.discs().size(), coefficient));
   const auto right = problem.right_hand_side();
-  EXPECT_FALSE(ExplicitProblem(problem).solve(right->b, right->e, set).converged);
+  EXPECT_FALSE(ExplicitProblem(problem.system()).solve(right->b, right->e, set).converged);
 }
 
 }  // namespace

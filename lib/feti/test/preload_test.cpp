@@ -34,7 +34,8 @@ qp::Solution solve(const DualProblem& problem, const std::string& algorithm)
   EXPECT_EQ(hessian.count(), right->driven ? 1 : 0);
   const qp::Programme programme{hessian, problem.equality(), problem.set()};
   if (algorithm == "smalse") return qp::smalse({programme, *right, problem.set()}, {}, 1e-10, {});
-  return qp::FaceNewton(programme, problem.preconditioner()).solve(*right, problem.set().radii(), nullptr, {}, {1e-10, {}}, {});
+  const auto preconditioner = problem.system().make_preconditioner();
+  return qp::FaceNewton(programme, preconditioner.get()).solve(*right, problem.set().radii(), nullptr, {}, {1e-10, {}}, {});
 }
 
 // Tension over the pretension section from the multipliers.
@@ -54,9 +55,8 @@ INSTANTIATE_TEST_SUITE_P(Both, Preloads, testing::Values("smalse", "face_newton"
 TEST_P(Preloads, AForceHasItsShortening)
 {
   const Column column({0, "cut", force}, true);
-  const DualProblem problem(column.decomposition, *column.directory, column.interface, column.constraints, column.system,
-                            column.load, {}, column.context);
-  EXPECT_EQ(problem.kernel_dimension(), 5 * 6);
+  const auto problem = column.problem();
+  EXPECT_EQ(problem.system().kernel_dimension(), 5 * 6);
   EXPECT_EQ(problem.equality().size(), 5 * 6 + 1);
   const auto solution = solve(problem, GetParam());
   ASSERT_TRUE(solution.converged);
@@ -78,8 +78,7 @@ TEST_P(Preloads, AForceHasItsShortening)
 TEST_P(Preloads, AShorteningHasItsForce)
 {
   const Column column({0, "cut", {}, shortening}, true);
-  const DualProblem problem(column.decomposition, *column.directory, column.interface, column.constraints, column.system,
-                            column.load, {}, column.context);
+  const auto problem = column.problem();
   EXPECT_EQ(problem.equality().size(), 5 * 6);
   qp::Hessian hessian(problem.hessian(), 1);
   EXPECT_FALSE(problem.driven_right_hand_side(hessian)->driven);
@@ -94,8 +93,7 @@ TEST(Preload, AHalfThatNothingStopsIsNamed)
 {
   const Column column({0, "cut", force}, false);
   try {
-    const DualProblem problem(column.decomposition, *column.directory, column.interface, column.constraints, column.system,
-                              column.load, {}, column.context);
+    const auto problem = column.problem();
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::no_equilibrium);

@@ -158,7 +158,7 @@ void CoulombSearch::fixed_point()
   Relaxation relaxation(dual.communicator());
   int failures = 0, falls = 0, idle = 0;
   double strictness = 1, least_change = 1;
-  const auto& groups = dual.groups().of_body;
+  const auto& groups = dual.system().groups().of_body;
   const bool apart = std::any_of(groups.begin(), groups.end(), [&](int g) { return g != groups.front(); });
   if (!converged_) means_.budget.change_algorithm();
   while (!converged_) {

@@ -81,15 +81,13 @@ bool any_coulomb(const std::vector<Law>& laws)
   return std::any_of(laws.begin(), laws.end(), [](const Law& law) { return kind_of(law).follows_forces; });
 }
 
-qp::FeasibleSet with_coefficients(const feti::DualProblem& problem, const std::vector<Law>& laws)
+qp::FeasibleSet with_coefficients(const feti::DualSystem& system, const std::vector<Law>& laws)
 {
-  std::vector<double> coefficients(problem.set().discs().size(), 0.0);
-  const auto& nodes = problem.constraints().contacts.nodes;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    if (const Law& law = laws[static_cast<std::size_t>(nodes[i].contact)];
-        kind_of(law).follows_forces && problem.node_rows()[i].disc >= 0)
-      coefficients[static_cast<std::size_t>(problem.node_rows()[i].disc)] = law.value;
-  auto result = problem.set();
+  std::vector<double> coefficients(system.set().discs().size(), 0.0);
+  for (const auto& rows : system.node_rows())
+    if (const Law& law = laws[static_cast<std::size_t>(rows.contact)]; kind_of(law).follows_forces && rows.disc >= 0)
+      coefficients[static_cast<std::size_t>(rows.disc)] = law.value;
+  auto result = system.set();
   result.set_coefficients(coefficients);
   return result;
 }
@@ -97,7 +95,7 @@ qp::FeasibleSet with_coefficients(const feti::DualProblem& problem, const std::v
 double relative_change(const feti::DualProblem& problem, const std::vector<double>& next, const std::vector<double>& now,
                        double least)
 {
-  const auto& groups = problem.groups();
+  const auto& groups = problem.system().groups();
   const auto discs = problem.set().discs();
   std::vector<double> squares(2 * groups.of_body.size(), 0.0);  // of each group: of the difference, of the bounds
   for (std::size_t i = 0; i < next.size(); ++i) {

@@ -15,14 +15,13 @@ using Kind = Law::Kind;
 TEST(SlipBounds, StickFirstAndFollowTheNormalForces)
 {
   Wedge wedge(20, 0, 1);
-  const feti::DualProblem problem(wedge.decomposition, *wedge.directory, wedge.interface, wedge.constraints, wedge.system,
-                                  wedge.load, {}, wedge.context);
+  const auto problem = wedge.problem();
   const auto count = problem.set().discs().size();
   const double infinite = std::numeric_limits<double>::infinity();
   EXPECT_EQ(slip_bounds(problem, {{Kind::coulomb, 0.5}}, nullptr), std::vector<double>(count, infinite));
   EXPECT_EQ(slip_bounds(problem, {{Kind::frictionless, 0}}, nullptr), std::vector<double>(count, 0.0));
   for (const auto& [kind, coefficient] : {std::pair(Kind::coulomb, 0.5), std::pair(Kind::tresca, 0.0)}) {
-    const qp::FeasibleSet set = with_coefficients(problem, {{kind, 0.5}});
+    const qp::FeasibleSet set = with_coefficients(problem.system(), {{kind, 0.5}});
     EXPECT_EQ(set.discs().size(), count);
     for (const auto& disc : set.discs()) EXPECT_EQ(disc.coefficient, coefficient);
   }

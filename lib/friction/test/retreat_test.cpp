@@ -89,8 +89,7 @@ TEST_P(Wedges, GoBackFromBoundsThatLeaveNothing)
   for (const char* algorithm : {"face_newton", "smalse", "direct"}) {
     const bool slow = algorithm == std::string("smalse");
     Wedge wedge(slope, push, slow ? 1 : 3);
-    feti::DualProblem problem(wedge.decomposition, *wedge.directory, wedge.interface, wedge.constraints, wedge.system, wedge.load,
-                              {}, wedge.context);
+    const auto problem = wedge.problem();
     CoulombStep step(problem, coefficient, algorithm, slow ? 1e-6 : 1e-8);
     std::map<int, double> sums;  // of the bounds of each Tresca problem that has a feasible point
     step.watch = [&](int number, const qp::Progress& progress) {
@@ -116,8 +115,7 @@ TEST(WedgePushedTooHard, IsNoEquilibrium)
 {
   for (const char* algorithm : {"face_newton", "smalse"}) {
     Wedge wedge(20, 1.75, 1);
-    feti::DualProblem problem(wedge.decomposition, *wedge.directory, wedge.interface, wedge.constraints, wedge.system, wedge.load,
-                              {}, wedge.context);
+    const auto problem = wedge.problem();
     try {
       CoulombStep(problem, coefficient, algorithm, 1e-6).solve();
       FAIL() << "no error";

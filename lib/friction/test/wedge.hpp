@@ -46,12 +46,13 @@ struct Wedge : feti::Blocks {
 
 // What drives one load step, to a residual. Collective.
 struct CoulombStep {
-  CoulombStep(feti::DualProblem& dual, double coefficient, const std::string& algorithm, double tolerance)
+  CoulombStep(const feti::DualProblem& dual, double coefficient, const std::string& algorithm, double tolerance)
       : problem(dual),
         laws{{Law::Kind::coulomb, coefficient}},
         budget(hessian, {}, qp::solver_kind(algorithm).steady),
-        omega(with_coefficients(dual, laws)),
-        solver(qp::solver_kind(algorithm).make({hessian, dual.equality(), omega}, feti::means_of(dual, budget))),
+        omega(with_coefficients(dual.system(), laws)),
+        solver(qp::solver_kind(algorithm).make({hessian, dual.equality(), omega},
+                                               feti::means_of(dual.system(), preconditioner.get(), budget))),
         right(dual.right_hand_side()),
         goal{tolerance}
   {
@@ -66,8 +67,9 @@ struct CoulombStep {
         .found;
   }
 
-  feti::DualProblem& problem;
+  const feti::DualProblem& problem;
   std::vector<Law> laws;
+  std::unique_ptr<qp::ActiveSetPreconditioner> preconditioner = problem.system().make_preconditioner();
   qp::Hessian hessian{problem.hessian(), 0};
   qp::Budget budget;
   qp::FeasibleSet omega;

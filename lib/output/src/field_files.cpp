@@ -23,8 +23,9 @@ std::vector<NodeValues> values_of_nodes(const model::Deck& deck, const Evaluated
 {
   std::vector<NodeValues> result;
   if (deck.output.has_field("reaction_force"))
-    result.push_back({"reaction_force", 3,
-                      post::holding_forces(found.problem, found.decomposition, found.interface, found.state.solved.solution.x)});
+    result.push_back(
+        {"reaction_force", 3,
+         post::holding_forces(found.state.problem, found.decomposition, found.interface, found.state.solved.solution.x)});
   if (deck.output.has_field("contact_pressure"))
     result.push_back(
         {"contact_pressure", 1,
@@ -51,7 +52,7 @@ void FieldFiles::write(const EvaluatedState& found, bool due, bool last, const C
 
 void FieldFiles::write_fields(const EvaluatedState& found, bool last, const Communicator& comm)
 {
-  const auto& [decomposition, interface, problem, state, probes, results] = found;
+  const auto& [decomposition, interface, state, probes, results] = found;
   const auto& directory = deck_.output.directory;
   const auto& pairs = state.rows->pairs;
   const auto time = deck_.steps.empty() ? std::nullopt : std::optional(found.acts().time);
@@ -80,7 +81,7 @@ void FieldFiles::write_tables(const EvaluatedState& found, bool last, const Comm
     for (auto& table : more) tables.push_back(std::move(table));
   };
   append(cell_tables(found.decomposition, found.results, comm));
-  tables.push_back(multiplier_table(found.problem, found.state.solved.solution.x));
+  tables.push_back(multiplier_table(found.state.problem, found.state.solved.solution.x));
   if (!found.state.rows->pairs.empty()) tables.push_back(contact_table(found.results.contact.shown, comm));
   append(interior_tables(found.decomposition, found.probes, found.results.interior, comm));
   const auto name = last ? std::string("results.h5") : fmt::format("results.{}.h5", volume_.frames.size() + 1);

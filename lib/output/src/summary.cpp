@@ -36,8 +36,8 @@ void add_work(const feti::DualSolution& solved, io::StateSummary& summary)
 void add_figures(const post::Results& results, const mesh::Catalogue& catalogue, io::StateSummary& summary)
 {
   const auto& r = results.residuals;
-  summary.residuals = {r.projected_gradient, r.equality, r.equilibrium, r.penetration, r.complementarity, r.supports,
-                       r.interfaces};
+  summary.residuals = {r.projected_gradient, r.equality, r.equilibrium, r.penetration,
+                       r.complementarity,    r.supports, r.interfaces};
   summary.error_estimate.discretization = results.mesh_error.relative;
   summary.error_estimate.algebraic = results.algebraic_error;
   summary.strain_energy = results.stress.strain_energy;
@@ -141,17 +141,18 @@ io::Summary::Spread over_ranks(const Traffic& mine, const Communicator& comm)
 
 }  // namespace
 
-io::Summary sizes_of(const partition::Decomposition& decomposition, const feti::DualProblem& problem, const Communicator& comm)
+io::Summary sizes_of(const feti::DualSystem& system, const Communicator& comm)
 {
+  const auto& decomposition = system.decomposition();
   io::Summary result;
   for (const auto& subdomain : decomposition.subdomains)
-    result.primal_unknowns += static_cast<Global>(subdomain.mesh.node_count()) * problem.dimension();
+    result.primal_unknowns += static_cast<Global>(subdomain.mesh.node_count()) * system.dimension();
   result.primal_unknowns = comm.sum(result.primal_unknowns);
-  result.dual_unknowns = problem.dual_unknowns();
+  result.dual_unknowns = system.dual_unknowns();
   result.subdomains = decomposition.subdomain_count();
   result.clusters = decomposition.clustered() ? decomposition.cluster_count() : 0;
-  result.kernel_dimension = problem.kernel_dimension();
-  for (const auto& subdomain : problem.clusters().subdomains()) result.single_precision += subdomain->rounding() > 0 ? 1 : 0;
+  result.kernel_dimension = system.kernel_dimension();
+  for (const auto& subdomain : system.clusters().subdomains()) result.single_precision += subdomain->rounding() > 0 ? 1 : 0;
   result.single_precision = comm.sum(result.single_precision);
   return result;
 }
@@ -187,7 +188,7 @@ io::Summary summarise(const model::Model& model, const EvaluatedState& found, co
 {
   const auto& results = found.results;
   const auto& catalogue = found.decomposition.catalogue;
-  io::Summary summary = sizes_of(found.decomposition, found.problem, comm);
+  io::Summary summary = sizes_of(found.state.problem.system(), comm);
   summary.title = model.deck().title;
   summary.bodies = static_cast<Global>(catalogue.bodies.size());
   for (const auto& body : catalogue.bodies) summary.body_names.push_back(body.name);

@@ -147,7 +147,7 @@ io::Table multiplier_table(const feti::DualProblem& problem, const Vector& lambd
   io::Table table{"dual/multipliers",
                   "forces of the rows: gluing (between copies of a node), supports, contacts, gauges",
                   1,
-                  problem.dual_unknowns(),
+                  problem.system().dual_unknowns(),
                   {},
                   {}};
   const Eigen::VectorXd values = problem.forces(lambda);

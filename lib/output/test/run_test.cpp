@@ -42,15 +42,16 @@ TEST(Runs, LeaveFilesAndASummary)
   analysis::Approach approach;
   approach.algorithm = deck.solver.programme.algorithm;
   auto rows = analysis::make_rows(model, states.front(), {}, context);
-  analysis::LoadStepSolver solver(assembly, analysis::make_dual_problem(assembly, std::move(rows), context), approach, context);
+  analysis::LoadStepSolver solver(assembly, analysis::make_dual_problem(assembly, std::move(rows), approach, context), approach,
+                                  context);
 
   FieldFiles files(deck);
   io::Summary all;
   std::optional<analysis::StepState> state;
   for (const auto& acts : states) {
     state = solver.solve(acts, std::move(state), [](int, double, const qp::Progress&) {});
-    const auto results = analysis::evaluate(assembly, solver, *state, probes, context);
-    const EvaluatedState found{model.decomposition(), assembly.interface(), solver.problem(), *state, probes, results};
+    const auto results = analysis::evaluate(assembly, *state, probes, context);
+    const EvaluatedState found{model.decomposition(), assembly.interface(), *state, probes, results};
     auto summary = summarise(model, found, comm);
     accumulate_steps(acts, all, summary);
     all = std::move(summary);

@@ -195,7 +195,7 @@ Balance balance(const feti::DualProblem& problem, const Vector& lambda, std::spa
   for (const auto& r : contacts) b.largest = std::max({b.largest, r.force.norm(), part_of_contacts * r.sizes});
   for (const auto& c : couplings) b.largest = std::max(b.largest, std::hypot(c.action[0], c.action[1], c.action[2]));
   for (const auto& [force, moment] : reactions) b.largest = std::max(b.largest, std::hypot(force[0], force[1], force[2]));
-  b.gauges = problem.gauge_force(lambda);
+  b.gauges = problem.system().gauge_force(lambda);
   b.difference = (b.applied + b.supports + b.obstacles + b.neighbours + b.gauges).norm() / b.largest;
   b.acting = b.largest;
   for (const auto& r : contacts) b.acting = std::max(b.acting, acting_part_of_contacts * r.sizes);

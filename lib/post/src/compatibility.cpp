@@ -53,7 +53,7 @@ Openings openings(const feti::DualProblem& problem, const std::vector<Eigen::Vec
 {
   const Eigen::VectorXd jumps = problem.jumps(u);
   const auto& contacts = problem.constraints().contacts;
-  const auto& groups = problem.groups();
+  const auto& groups = problem.system().groups();
   const auto bound = contact_bounds(problem, nu);
   const std::vector<double> none(groups.of_body.size(), 0.0);
   Openings largest{none, none};
@@ -93,7 +93,7 @@ std::vector<double> distances_from_supports(const feti::DualProblem& problem, co
 {
   const Eigen::VectorXd jumps = problem.jumps(u);
   const auto& constraints = problem.constraints();
-  const auto& groups = problem.groups();
+  const auto& groups = problem.system().groups();
   std::vector<double> largest(groups.of_body.size(), 0.0);
   auto row = problem.jump().ranges().dirichlet;
   const auto note = [&](double place) {
@@ -127,7 +127,7 @@ double incompatibility(const feti::DualProblem& problem, const partition::Decomp
                        const partition::Interface& interface, const std::vector<Eigen::VectorXd>& u, const Eigen::VectorXd& nu)
 {
   const auto& comm = problem.communicator();
-  const auto& groups = problem.groups().of_body;
+  const auto& groups = problem.system().groups().of_body;
   const auto [tear, size] = tears(decomposition, interface, u, problem.dimension(), comm);
   const auto loads = problem.loads_of_bodies();
   const double all = *std::max_element(size.begin(), size.end()), load = *std::max_element(loads.begin(), loads.end());

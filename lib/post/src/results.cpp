@@ -100,7 +100,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   // An error of this size is a hundredth: it excuses residuals that are measured by what is nothing itself.
   rounding.energy = std::max(rounding.energy, std::pow(100 * negligible, 2));
   // Bodies that hang on springs move more exactly than they are strained.
-  const double stored = problem.springs() ? problem.springs()->stored(lambda) : 0;
+  const double stored = problem.system().springs() ? problem.system().springs()->stored(lambda) : 0;
   rounding.energy = std::max(rounding.energy, part_of_springs * stored);
   Results results;
   results.max_displacement = largest_displacement(displacement, dimension, comm);
@@ -146,7 +146,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   evidence.drift =
       drift(bodies.decomposition, bodies.kinematics, sizes, displacement, prescribed(problem.constraints(), comm), comm);
   results.verdict = verdict(evidence);
-  results.algebraic_error += problem.rounding();  // what the solver does not know
+  results.algebraic_error += problem.system().rounding();  // what the solver does not know
   if (norm > 0) results.algebraic_error += slip_error / norm;
   return results;
 }

@@ -16,7 +16,7 @@ TEST(Reactions, OfAPressedColumn)
   column.guide();
   column.touch();
   column.add_traction("upper.zmax", Point(0, 0, -pressed));
-  auto problem = column.problem();
+  const auto problem = column.problem();
   const auto lambda = solved(problem).solution.x;
   const auto found = reactions(problem, lambda, 5);
   ASSERT_EQ(found.size(), 5U);
@@ -54,7 +54,7 @@ TEST(Reactions, OfAnElasticFoundation)
     springs.stiffness.insert(static_cast<int>(i), static_cast<int>(i)) = foundation * Pieces::share(x);
   }
   column.add_traction("lower.zmax", Point(0, 0, -pressed));
-  auto problem = column.problem();
+  const auto problem = column.problem();
   const auto result = solved(problem);
   const auto found = reactions(problem, result.solution.x, 3);
   expect_near(found[0].force, {0, 0, force});
@@ -102,7 +102,7 @@ TEST(Reactions, OfTiltedSupports)
       block.constraints.skew_supports.push_back(row);
     }
   }
-  auto problem = block.problem();
+  const auto problem = block.problem();
   const auto result = solved(problem);
   const auto u = problem.displacement(result.solution.x, result.solution.nu);
   const auto exact = block.displacement([&](const Point& x, int) { return Point(strain * x); });
@@ -167,7 +167,7 @@ TEST(Couplings, RigidOnesHandOnWhatActsOnThem)
     const auto rows = constraint::coupled_rows(block.constraints.couplings, top, 1, 3, block.comm);
     auto& prescribed = block.constraints.prescribed;
     prescribed.insert(prescribed.end(), rows.begin(), rows.end());
-    auto problem = block.problem();
+    const auto problem = block.problem();
     const auto result = solved(problem);
     const auto& lambda = result.solution.x;
     const auto states = coupling_states(problem, lambda);
@@ -204,7 +204,7 @@ TEST(Couplings, DistributingOnesAreHeldInTheMean)
     about.entries.push_back({node, 2, arm * Pieces::share(x) * (x[1] - point[1]) / second});
   }
   if (block.comm.root()) block.constraints.mean_motions = {along, about};
-  auto problem = block.problem();
+  const auto problem = block.problem();
   const auto lambda = solved(problem).solution.x;
   const auto states = coupling_states(problem, lambda);
   ASSERT_EQ(states.size(), 1U);
@@ -235,7 +235,7 @@ TEST(Springs, PullWithWhatHangsOnThem)
   springs.stiffness.insert(1, 1) = support;
   springs.stiffness.insert(2, 2) = soft;
   column.add_traction("upper.zmax", Point(0, 0, pull / Pieces::area));
-  auto problem = column.problem();
+  const auto problem = column.problem();
   const auto result = solved(problem);
   const auto states = spring_states(problem, result.solution.x);
   ASSERT_EQ(states.size(), 2U);

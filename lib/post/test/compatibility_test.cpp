@@ -22,7 +22,7 @@ TEST(DistanceFromSupports, IsThatAlongWhatTheyPrescribe)
   Pieces block(false);
   block.guide(false);
   for (auto& held : block.constraints.prescribed) held.value = held.support == 0 ? 0.25 : 0;
-  auto problem = block.problem();
+  const auto problem = block.problem();
   const auto distance = [&](const Point& shift) {
     return distance_from_supports(problem, block.displacement([&](const Point&, int) { return shift; }), no_motion(problem));
   };

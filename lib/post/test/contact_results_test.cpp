@@ -17,7 +17,7 @@ TEST(ContactResults, OfAPressedColumn)
   column.guide();
   const auto pairs = column.touch();
   column.add_traction("upper.zmax", Point(0, 0, -pressure_on_top));
-  auto problem = column.problem();
+  const auto problem = column.problem();
   const auto result = solved(problem);
   const auto& lambda = result.solution.x;
   const auto& nu = result.solution.nu;
@@ -83,7 +83,8 @@ struct MadeUp {
                          double largest = 0, double slip_bound = std::numeric_limits<double>::infinity()) const
   {
     const std::vector<double> bounds(problem.set().discs().size(), slip_bound);
-    return contact_results(problem, lambda, Eigen::VectorXd::Zero(problem.kernel_dimension()), bounds, u, pairs, largest);
+    return contact_results(problem, lambda, Eigen::VectorXd::Zero(problem.system().kernel_dimension()), bounds, u, pairs,
+                           largest);
   }
 };
 

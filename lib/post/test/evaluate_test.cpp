@@ -17,8 +17,7 @@ class PressedColumn {
     column_.add_traction("upper.zmax", Point(0, 0, -on_top));
     for (std::size_t s = 0; s < column_.decomposition.subdomains.size(); ++s)
       constitution_.push_back({fem::Material{Pieces::young, Pieces::poisson, 0, 0}});
-    problem_ = std::make_unique<feti::DualProblem>(column_.decomposition, *column_.directory, column_.interface, column_.placed(),
-                                                   column_.system, column_.load, feti::Options(), column_.context);
+    problem_ = column_.problem();
     found = solved(*problem_);
     u = problem_->displacement(found->solution.x, found->solution.nu);
   }
@@ -42,7 +41,7 @@ class PressedColumn {
   Pieces column_;
   std::vector<contact::Pair> pairs_;
   std::vector<fem::Constitution> constitution_;
-  std::unique_ptr<feti::DualProblem> problem_;
+  std::optional<feti::DualProblem> problem_;
 };
 
 TEST(Evaluate, TellsOfAColumnWhatFormulasTell)

@@ -66,7 +66,11 @@ struct Pieces : feti::Blocks {
     result.springs.own = feti::rows_here(result.springs.rows, decomposition, *directory, comm);
     return result;
   }
-  feti::DualProblem problem() const { return {decomposition, *directory, interface, placed(), system, load, {}, context}; }
+  feti::DualProblem problem() const
+  {
+    return {decomposition, *directory, interface, std::make_shared<const constraint::Constraints>(placed()),
+            system,        load,       {},        context};
+  }
 
   // u(x) at all nodes; `only`: of one subdomain, all others stay.
   template <class Field>
@@ -101,13 +105,15 @@ struct Pieces : feti::Blocks {
 };
 
 // An equilibrium without friction, to rounding. Collective.
-inline feti::DualSolution solved(feti::DualProblem& problem)
+inline feti::DualSolution solved(const feti::DualProblem& problem)
 {
   qp::Hessian hessian(problem.hessian(), 0);
   qp::Budget budget(hessian, {}, false);
   const std::vector<double> radii(problem.set().discs().size(), 0.0);
+  const auto preconditioner = problem.system().make_preconditioner();
   const auto solver =
-      qp::solver_kind("face_newton").make({hessian, problem.equality(), problem.set()}, feti::means_of(problem, budget));
+      qp::solver_kind("face_newton")
+          .make({hessian, problem.equality(), problem.set()}, feti::means_of(problem.system(), preconditioner.get(), budget));
   const auto right = problem.driven_right_hand_side(hessian);
   feti::DualSolution result{solver->solve(*right, radii, {}, {1e-12}, {})};
   result.slip_bounds = problem.slip_bounds(problem.set().with_radii(radii));

@@ -1,4 +1,4 @@
-// The quadratic programmes of load steps on one dual problem: what solves them, how exactly, and when it gives up.
+// The quadratic programmes of load states on one dual system: what solves them, how exactly, and when it gives up.
 #pragma once
 
 #include <functional>
@@ -18,42 +18,48 @@ namespace mortise::analysis {
 /// stands.
 using Observer = std::function<void(int step, double change, const qp::Progress&)>;
 
-/// One load step after the other on a dual problem, which gets another right-hand side between them: recycled directions, the
-/// norm and M of SMALSE-M stay. Where a contact has Coulomb's law, friction::solve_coulomb() finds its slip bounds; else they are
-/// given.
+/// One problem after the other of a dual system: recycled directions, the norm and M of SMALSE-M stay, and so does the
+/// preconditioner, which follows the active set. Where a contact has Coulomb's law, friction::solve_coulomb() finds its slip
+/// bounds; else they are given.
 class DualSolver {
  public:
-  /// The problem outlives it, and is exact where the solver's products have to be (qp::SolverKind::exact_products). laws[c]: of
-  /// contact c. Collective.
-  DualSolver(const feti::DualProblem& problem, std::vector<friction::Law> laws, const friction::Options& loop,
+  /// Shares the system, whose products are exact where the solver's have to be (qp::SolverKind::exact_products). laws[c]: of
+  /// contact c. Throws as feti::Preconditioner. Collective.
+  DualSolver(std::shared_ptr<const feti::DualSystem> system, std::vector<friction::Law> laws, const friction::Options& loop,
              const qp::Options& solver);
   DualSolver(const DualSolver&) = delete;
   DualSolver& operator=(const DualSolver&) = delete;
 
-  /// Solves for the multipliers, from `before`, the solution of the step before, if there is one: to the tolerance of the
-  /// solver's options or, where that is auto, to what errors are compared with, `accuracy`. `patience`: when it gives up in
-  /// favour of another approach; with one, it also gives up where its algorithm makes no more progress. Throws
+  /// Solves a problem of system() for its multipliers, from `before`, the solution of the step before, if there is one: to the
+  /// tolerance of the solver's options or, where that is auto, to what errors are compared with, `accuracy`. `patience`: when it
+  /// gives up in favour of another approach; with one, it also gives up where its algorithm makes no more progress. Throws
   /// Error(no_equilibrium) that names the body that moves and how. Collective.
-  feti::DualSolution solve(const std::optional<qp::Solution>& before, const qp::Goal& accuracy, const Observer& observer,
-                           std::optional<qp::Patience> patience = {});
+  feti::DualSolution solve(const feti::DualProblem& problem, const std::optional<qp::Solution>& before, const qp::Goal& accuracy,
+                           const Observer& observer, std::optional<qp::Patience> patience = {});
   /// The next solve may begin with states of constraints that these forces and this gradient have, see qp::Solver.
   void suggest(qp::Solution states) { algorithm_->suggest(std::move(states)); }
   /// Products with F of all solves, also of one that threw.
   int applications() const { return hessian_.count(); }
+  const feti::DualSystem& system() const { return *system_; }
+  /// F, and what its last product was made of.
+  const feti::RememberedProduct& product() const { return product_; }
 
  private:
   struct Step;
-  qp::Goal goal(const qp::Goal& accuracy) const;
+  qp::Goal goal(const feti::DualProblem& problem, const qp::Goal& accuracy) const;
   feti::DualSolution solve_tresca(Step& step);
   feti::DualSolution solve_coulomb(Step& step);
-  void tell_unresolved_nodes(const qp::Problem& problem, const feti::StateRecord& states, feti::DualSolution& result);
+  void tell_unresolved_nodes(const Step& step, const qp::FeasibleSet& set, const feti::StateRecord& states,
+                             feti::DualSolution& result);
 
-  const feti::DualProblem& problem_;
+  const std::shared_ptr<const feti::DualSystem> system_;
   const std::vector<friction::Law> laws_;
   const friction::Options loop_;
-  const std::optional<double> tolerance_;  // of the residual; without one the error decides
-  const bool from_direct_;                 // a direct solution is where all begins
-  qp::Hessian hessian_;
+  const std::optional<double> tolerance_;                              // of the residual; without one the error decides
+  const bool from_direct_;                                             // a direct solution is where all begins
+  const std::unique_ptr<qp::ActiveSetPreconditioner> preconditioner_;  // null if the options want none
+  const feti::RememberedProduct product_;
+  qp::Hessian hessian_;  // this, counted
   qp::Budget budget_;
   const qp::FeasibleSet omega_;  // with the coefficients of the laws
   std::unique_ptr<qp::Solver> algorithm_;

@@ -10,6 +10,7 @@
 #include "analysis/dual_solver.hpp"
 #include "analysis/restart.hpp"
 #include "analysis/rows.hpp"
+#include "feti/displacements.hpp"
 #include "post/results.hpp"
 
 namespace mortise::analysis {
@@ -27,43 +28,46 @@ struct Magnitudes {
   double unfelt() const { return 1e-8 * force; }
 };
 
-/// A solved load state, from which the next one starts. A value.
+/// A load state that is to be solved: the rows of B, and the programme. A value, whose large parts are shared.
+struct StepProblem {
+  std::shared_ptr<const Rows> rows;
+  std::shared_ptr<const post::SymmetricNodes> symmetric;
+  feti::DualProblem dual;  ///< its constraints are those of `rows`
+};
+
+/// A solved load state: all that evaluate() and the next state ask for, whatever was solved after it. A value, whose large parts
+/// are shared.
 struct StepState {
   std::shared_ptr<const Rows> rows;
   std::shared_ptr<const post::SymmetricNodes> symmetric;
+  feti::DualProblem problem;
   feti::DualSolution solved;
   std::vector<Eigen::VectorXd> displacement;  ///< of each subdomain
   std::vector<double> shortenings;            ///< of the preloaded contacts, lengths
   std::optional<qp::Patience> patience;       ///< when the next load step gives up
   Magnitudes before;                          ///< of the states before this one
-};
-
-/// The dual problem of a load state, and the rows that it is of. Heavy: moves, does not copy.
-struct StepProblem {
-  std::shared_ptr<const Rows> rows;
-  std::shared_ptr<const post::SymmetricNodes> symmetric;
-  std::unique_ptr<feti::DualProblem> dual;
+  bool first = true;                          ///< there are none
 };
 
 /// What the first load step is to find, multipliers lambda of the rows of B, see feti::DualProblem:
 ///
 ///     minimise  1/2 lambda'F lambda - lambda'd   subject to  G lambda = e,  lambda in Omega.
 ///
-/// The assembly outlives it. Throws Error(no_equilibrium), naming the body and its motion, if loads drive a body that nothing
-/// holds. Collective.
-StepProblem make_dual_problem(const Assembly& assembly, Rows rows, const Context& context);
+/// The assembly outlives it and what is made of it. `approach`: that of the solver which it is for. Throws
+/// Error(no_equilibrium), naming the body and its motion, if loads drive a body that nothing holds. Collective.
+StepProblem make_dual_problem(const Assembly& assembly, Rows rows, const Approach& approach, const Context& context);
 
+/// Keeps what is known of F: recycled directions and norms, as long as states have the same system. All else is in the states.
 /// Heavy: neither copies nor moves.
 class LoadStepSolver {
  public:
-  /// `first`: the problem of the first state. The assembly outlives it. Collective.
+  /// `first`: the problem of the first state, by make_dual_problem(). The assembly outlives it. Collective.
   LoadStepSolver(const Assembly& assembly, StepProblem first, Approach approach, const Context& context);
   LoadStepSolver(const LoadStepSolver&) = delete;
   LoadStepSolver& operator=(const LoadStepSolver&) = delete;
 
-  /// Finds the equilibrium of the state `acts`: first that of the constructor's problem, with nothing for `before`; then one
-  /// state after the other, each with what the call before returned, from which friction counts slip. Throws
-  /// Error(no_equilibrium). Collective.
+  /// Finds the equilibrium of the state `acts`: first, and once, that of the constructor's problem, with nothing for `before`;
+  /// then that of a state after `before`, from whose end friction counts slip. Throws Error(no_equilibrium). Collective.
   StepState solve(const model::LoadState& acts, std::optional<StepState> before, const Observer& observer);
 
   /// The same without solving: takes the solution from the record of an earlier run. Throws as solution_of(). Collective.
@@ -72,8 +76,6 @@ class LoadStepSolver {
   /// What comes of a state in which products gave up, the last one. Collective.
   Outcome given_up(const StepState& state) const;
 
-  /// The dual problem of the last state; replaced by another one when rows change.
-  const feti::DualProblem& problem() const { return *problem_; }
   /// Products with F of all load steps and of the earlier approaches, also of a load step that threw.
   int applications() const { return before_ + (solver_ ? solver_->applications() : 0); }
 
@@ -83,27 +85,36 @@ class LoadStepSolver {
   struct Norms {
     double error = 0, size = 0, whole = 0;
   };
-  Norms norms(std::span<const fem::Constitution> constitution, const Vector& lambda,
+  Norms norms(const post::SymmetricNodes& symmetric, const feti::DualProblem& problem,
+              std::span<const fem::Constitution> constitution, const Vector& lambda,
               const std::vector<Eigen::VectorXd>& displacement) const;
-  void make_solver();
-  void take_rows(Rows rows);
+  // A state that is about to be solved.
+  struct Begun {
+    StepProblem problem;
+    std::vector<fem::Constitution> constitution;
+    std::optional<qp::Solution> start;  // from the state before
+    std::optional<qp::Patience> patience;
+    Magnitudes before;
+    bool first = true;
+  };
+  Begun begin(const model::LoadState& acts, std::optional<StepState> before);
+  StepProblem problem_after(const model::LoadState& acts, StepState& from);
+  void drop_solver();
+  DualSolver& solver_of(const feti::DualProblem& problem);
+  qp::Goal goal(const Begun& begun, feti::Displacements& displacements) const;
   Magnitudes up_to(const StepState& state) const;
-  void update(const model::LoadState& acts, StepState& from);
+  StepState end(Begun begun, feti::DualSolution found, std::vector<Eigen::VectorXd> displacement) const;
 
   const Assembly& assembly_;
   const Context& context_;
   const Approach approach_;
-  std::shared_ptr<const Rows> rows_;  // of the problem
-  std::shared_ptr<const post::SymmetricNodes> symmetric_;
-  std::unique_ptr<feti::DualProblem> problem_;
-  std::optional<DualSolver> solver_;  // refers to the problem
-  bool first_ = true;                 // no state has been solved yet
+  std::optional<StepProblem> first_;  // until it is solved
+  std::optional<DualSolver> solver_;  // of the last system
   int before_ = 0;                    // products of the solvers and approaches before this one
 };
 
-/// All results of the state that solver.solve() or take_up() returned last, also inside bodies where `probes` are. Throws
-/// Error(no_equilibrium) if the verdict says that it is no equilibrium. Collective.
-post::Results evaluate(const Assembly& assembly, const LoadStepSolver& solver, const StepState& state, const post::Probes& probes,
-                       const Context& context);
+/// All results of a state on this assembly, also inside bodies where `probes` are. Throws Error(no_equilibrium) if the verdict
+/// says that it is no equilibrium. Collective.
+post::Results evaluate(const Assembly& assembly, const StepState& state, const post::Probes& probes, const Context& context);
 
 }  // namespace mortise::analysis

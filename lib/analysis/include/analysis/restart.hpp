@@ -12,7 +12,6 @@
 
 namespace mortise::analysis {
 
-class LoadStepSolver;
 struct StepState;
 
 /// The record of a load state. The same on every rank.
@@ -35,7 +34,7 @@ class Restart {
   /// Its record of the state at this time by this approach; null if there is none.
   const Record* find(const Approach& approach, double time) const;
   /// Writes the record of a state, the `index`-th, from 1. Throws Error(machine). Collective.
-  void keep(std::size_t index, const Approach& approach, const LoadStepSolver& solver, const StepState& state) const;
+  void keep(std::size_t index, const Approach& approach, const StepState& state) const;
   /// Removes all records, for a run that has come to its end: rank 0 does so, the others return. Never throws.
   void remove() const;
 
@@ -47,8 +46,8 @@ class Restart {
   std::vector<Record> records_;
 };
 
-/// The solution that a record holds. Throws Error(bad_input) if the record is of another problem, as that of a mesh that has
-/// changed. Collective.
-feti::DualSolution solution_of(const Record& record, const feti::DualProblem& problem);
+/// The solution that a record holds, by one product with F, `hessian`. Throws Error(bad_input) if the record is of another
+/// problem, as that of a mesh that has changed. Collective.
+feti::DualSolution solution_of(const Record& record, const feti::DualProblem& problem, const Operator& hessian);
 
 }  // namespace mortise::analysis

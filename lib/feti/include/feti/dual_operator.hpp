@@ -1,8 +1,6 @@
-// The dual operator F = B K^+ B', plus C = A^-1 on the rows of springs: one product solves once on every cluster, by factors as
-// they are rounded, unless that is not enough.
+// The dual operator F = B K^+ B', plus C = A^-1 on the rows of springs: one product solves once on every cluster.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -14,25 +12,44 @@
 
 namespace mortise::feti {
 
+/// By which factors products with F solve, where these are rounded to single precision (SubdomainOperator::rounding()).
+enum class Products {
+  rounded,  ///< as they are
+  exact     ///< as if they were in double precision, at three times the price
+};
+
 /// Refers to its parts; they outlive it.
 class DualOperator : public Operator {
  public:
   /// `springs`: null if there are none.
-  DualOperator(const JumpOperator& jump, const Clusters& clusters, Timers& timers, const ElasticRows* springs = nullptr)
-      : jump_(jump), clusters_(clusters), timers_(timers), springs_(springs)
+  DualOperator(const JumpOperator& jump, const Clusters& clusters, Timers& timers, const ElasticRows* springs, Products products)
+      : jump_(jump), clusters_(clusters), timers_(timers), springs_(springs), products_(products)
   {
   }
   Teuchos::RCP<const Map> getDomainMap() const override { return jump_.rows(); }
   Teuchos::RCP<const Map> getRangeMap() const override { return jump_.rows(); }
   /// y = alpha F x + beta y, column by column. Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override;
-  /// From now on with factors in double precision, or as if they were.
-  void be_exact()
-  {
-    rounded_ = false;
-    last_.reset();
-  }
-  bool rounded() const { return rounded_; }
+  /// The same of one column. Returns what it is made of: K^+ B'x of each subdomain of this rank. Collective.
+  std::vector<Eigen::VectorXd> multiply(const Vector& x, Vector& y, Scalar alpha, Scalar beta) const;
+  Products products() const { return products_; }
+
+ private:
+  const JumpOperator& jump_;
+  const Clusters& clusters_;
+  Timers& timers_;
+  const ElasticRows* springs_;
+  Products products_;
+};
+
+/// F for one solver, which asks what its last product was made of. Refers to F, which outlives it.
+class RememberedProduct : public Operator {
+ public:
+  explicit RememberedProduct(const DualOperator& hessian) : hessian_(hessian) {}
+  Teuchos::RCP<const Map> getDomainMap() const override { return hessian_.getDomainMap(); }
+  Teuchos::RCP<const Map> getRangeMap() const override { return hessian_.getRangeMap(); }
+  /// As that of F. Collective.
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override;
   /// K^+ B'x of each subdomain of this rank if the last product was that with x, else null.
   const std::vector<Eigen::VectorXd>* response(const Vector& x) const
   {
@@ -44,11 +61,7 @@ class DualOperator : public Operator {
     Eigen::VectorXd x;
     std::vector<Eigen::VectorXd> response;
   };
-  const JumpOperator& jump_;
-  const Clusters& clusters_;
-  Timers& timers_;
-  const ElasticRows* springs_;
-  bool rounded_ = true;
+  const DualOperator& hessian_;
   mutable std::optional<Product> last_;
 };
 

@@ -1,7 +1,7 @@
 // The dual problem as matrices, for a direct solution.
 #pragma once
 
-#include "feti/dual_problem.hpp"
+#include "feti/dual_system.hpp"
 #include "qp/condensed_newton.hpp"
 #include "qp/solver.hpp"
 
@@ -19,28 +19,28 @@ constexpr Global few_supports = 2000;
 class ExplicitProblem : public qp::ActiveSetPreconditioner {
  public:
   /// If there are more than `few` supports along axes, factorizes each subdomain that has any with them, and solves for the
-  /// columns of its inverse times B', as many as its other rows of B. Not for clusters of several subdomains. The problem
+  /// columns of its inverse times B', as many as its other rows of B. Not for clusters of several subdomains. The system
   /// outlives it. Throws as qp::CondensedNewton, Error(bad_input) if a supported subdomain is not positive definite, and
   /// Error(machine) if memory runs out. Collective.
-  explicit ExplicitProblem(const DualProblem& problem, Global few = few_supports);
+  explicit ExplicitProblem(const DualSystem& system, Global few = few_supports);
   ~ExplicitProblem() override;
 
   using Result = qp::ExplicitProgramme::Result;
-  /// The solution in `set`, over the unknowns of problem.set(), for the linear term d and for e, the same on every rank. `near`:
-  /// the solution of a problem before, with its reaction, to go on from; nothing else is tried. Collective.
+  /// The solution in `set`, over the unknowns of DualSystem::set(), for the linear term d and for e, the same on every rank.
+  /// `near`: the solution of a problem before, with its reaction, to go on from; nothing else is tried. Collective.
   Result solve(const Vector& linear, Eigen::VectorXd e, const qp::FeasibleSet& set, const Result* near = nullptr) const;
   /// Whether the matrices differ from F by a little: where rows depend on each other they have some compliance that F has not,
   /// and where supports are eliminated the rounding of other factors. The same on every rank.
   bool differs() const { return separated_ || eliminated_; }
 
-  Teuchos::RCP<const Map> getDomainMap() const override { return problem_.jump().rows(); }
-  Teuchos::RCP<const Map> getRangeMap() const override { return problem_.jump().rows(); }
+  Teuchos::RCP<const Map> getDomainMap() const override { return system_.jump().rows(); }
+  Teuchos::RCP<const Map> getRangeMap() const override { return system_.jump().rows(); }
   /// y = alpha F^-1 x + beta y. Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override;
   void fix(std::span<const Local>, std::span<const qp::SlipDirection>) override {}  // energy() is a bound over all x
 
  private:
-  const DualProblem& problem_;
+  const DualSystem& system_;
   std::unique_ptr<const DirichletElimination> elimination_;
   std::unique_ptr<const RowsOnRoot> rows_;
   std::unique_ptr<qp::CondensedNewton> newton_;  // rank 0

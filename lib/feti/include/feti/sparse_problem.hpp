@@ -5,7 +5,7 @@
 
 #include "base/cholesky.hpp"
 #include "base/lazy.hpp"
-#include "feti/dual_problem.hpp"
+#include "feti/dual_system.hpp"
 #include "qp/solver.hpp"
 #include "qp/sparse_newton.hpp"
 
@@ -37,22 +37,23 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   /// rows over whole bodies but gauges of motions that nothing resists. First where there are many rows and sparse matrices take
   /// less time; second where they take no more than some times as long, or some seconds, or bodies are slender and solutions
   /// refined, of which dense matrices take one for each row. The same on every rank. Collective.
-  static Turn turn(const DualProblem& problem, bool slender);
+  static Turn turn(const DualSystem& system, bool slender);
 
-  /// The problem outlives it. `patient`: as of qp::SparseNewton. Throws Error(machine) if memory runs out. Collective.
-  explicit SparseProblem(const DualProblem& problem, bool patient = false);
+  /// The system outlives it. `patient`: as of qp::SparseNewton. Throws Error(machine) if memory runs out. Collective.
+  explicit SparseProblem(const DualSystem& system, bool patient = false);
   ~SparseProblem() override;
 
   using Result = qp::ExplicitProgramme::Result;
-  /// The solution in `set`, over the unknowns of problem.set(), for f and c of `right`. Throws as qp::SparseNewton. Collective.
+  /// The solution in `set`, over the unknowns of DualSystem::set(), for f and c of `right`. Throws as qp::SparseNewton.
+  /// Collective.
   Result solve(const qp::RightHandSide& right, const qp::FeasibleSet& set) const;
   /// The same for a linear term d and an e that differ from those of `right`, from a solution of a problem before on: its
   /// lambda, and its reaction, unless this problem was solved before. Nothing else is tried. Collective.
   Result go_on(const qp::RightHandSide& right, const Vector& linear, const Eigen::VectorXd& e, const qp::FeasibleSet& set,
                const Result& near) const;
 
-  Teuchos::RCP<const Map> getDomainMap() const override { return problem_.jump().rows(); }
-  Teuchos::RCP<const Map> getRangeMap() const override { return problem_.jump().rows(); }
+  Teuchos::RCP<const Map> getDomainMap() const override { return system_.jump().rows(); }
+  Teuchos::RCP<const Map> getRangeMap() const override { return system_.jump().rows(); }
   /// y = alpha F^-1 x + beta y. Throws as qp::SparseInverse. Collective.
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override;
   void fix(std::span<const Local>, std::span<const qp::SlipDirection>) override {}  // energy() is a bound over all x
@@ -65,7 +66,7 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   Result solve(const std::vector<Eigen::VectorXd>& f, const Eigen::VectorXd& bound, const qp::FeasibleSet& set,
                const Result* near) const;
 
-  const DualProblem& problem_;
+  const DualSystem& system_;
   std::unique_ptr<const RowsOnRoot> rows_;
   std::vector<int> offset_;  // of the unknowns of this rank's subdomains among all; one past the last
   int unknowns_ = 0;         // of all ranks

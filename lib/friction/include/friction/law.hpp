@@ -25,8 +25,8 @@ std::vector<double> slip_bounds(const feti::DualProblem& problem, const std::vec
 /// Whether the slip bounds of any contact follow its forces.
 bool any_coulomb(const std::vector<Law>& laws);
 
-/// problem.set() with the coefficient of each disc under Coulomb's law, see qp::Disc; 0 under others. Slip bounds are to come.
-qp::FeasibleSet with_coefficients(const feti::DualProblem& problem, const std::vector<Law>& laws);
+/// system.set() with the coefficient of each disc under Coulomb's law, see qp::Disc; 0 under others. Slip bounds are to come.
+qp::FeasibleSet with_coefficients(const feti::DualSystem& system, const std::vector<Law>& laws);
 
 /// ||next - now|| / ||next|| of slip bounds as radii of discs, the largest of any group of bodies (feti::BodyGroups), those that
 /// are infinite in either left out; `least` is the size below which they are rounding. Collective.

@@ -10,7 +10,6 @@ namespace mortise::output {
 struct EvaluatedState {
   const partition::Decomposition& decomposition;
   const partition::Interface& interface;
-  const feti::DualProblem& problem;
   const analysis::StepState& state;
   const post::Probes& probes;
   const post::Results& results;

@@ -9,7 +9,7 @@
 namespace mortise::output {
 
 /// The sizes of a problem: unknowns, subdomains, clusters, dimension of the kernels. The same on every rank. Collective.
-io::Summary sizes_of(const partition::Decomposition& decomposition, const feti::DualProblem& problem, const Communicator& comm);
+io::Summary sizes_of(const feti::DualSystem& system, const Communicator& comm);
 /// The sizes in the text of a summary.json; zeros where it has none.
 io::Summary sizes_told(const std::string& json);
 /// Copies the sizes alone; the rest of `to` stays.

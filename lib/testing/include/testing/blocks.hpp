@@ -61,6 +61,16 @@ struct Blocks : Quiet {
     system.clusters = Clusters(decomposition, interface, subdomains, system.nodal_stiffness, fem::Kinematics::solid);
   }
 
+  // Of the constraints and loads as they are now; this outlives it.
+  DualProblem problem(const Options& options = {}, Products products = Products::rounded) const
+  {
+    return {decomposition, *directory, interface, shared_constraints(), system, load, options, context, {}, {}, products};
+  }
+  std::shared_ptr<const constraint::Constraints> shared_constraints() const
+  {
+    return std::make_shared<const constraint::Constraints>(constraints);
+  }
+
   int boundary(const std::string& name) const { return partition::boundary_index(decomposition, name); }
   mesh::Surface side(const std::string& name) const { return partition::side_of(decomposition, name); }
 
