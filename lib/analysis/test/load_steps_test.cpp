@@ -54,16 +54,21 @@ class Analysis {
                     quiet_.context);
   }
 
-  // The states of all steps and what they come to.
+  // The states of all steps and what they come to, at their time and when all are solved.
   void solve_all()
   {
     std::optional<StepState> state;
     for (const auto& acts : states_) {
       state = solver_->solve(acts, std::move(state), [](int, double, const qp::Progress&) {});
       results.push_back(evaluate(*assembly_, *state, {}, quiet_.context));
-      again.push_back(evaluate(*assembly_, *state, {}, quiet_.context));
       states.push_back(*state);
     }
+    for (const auto& solved : states) again.push_back(evaluate(*assembly_, solved, {}, quiet_.context));
+  }
+  // The state `i` once more, from the end of the one before it.
+  StepState solve_again(std::size_t i)
+  {
+    return solver_->solve(states_[i], states[i - 1], [](int, double, const qp::Progress&) {});
   }
   const model::Deck& deck() const { return deck_; }
 
@@ -121,11 +126,16 @@ TEST(LoadSteps, StatesAreValuesThatTheNextStartsFrom)
   run.solve_all();
   ASSERT_EQ(run.results.size(), 4U);
   for (std::size_t i = 0; i < 4; ++i) {
-    const auto &once = run.results[i], &twice = run.again[i];  // evaluating changes nothing
+    const auto &once = run.results[i], &twice = run.again[i];  // neither evaluating it nor solving others changes a state
     EXPECT_EQ(once.verdict.status, ExitStatus::solved) << i << once.verdict.reason;
     EXPECT_EQ(once.max_displacement, twice.max_displacement);
     EXPECT_EQ(once.stress.strain_energy, twice.stress.strain_energy);
     EXPECT_EQ(once.reactions, twice.reactions);
+    EXPECT_EQ(once.balance.applied, twice.balance.applied);
+    EXPECT_EQ(once.balance.difference, twice.balance.difference);
+    EXPECT_EQ(once.residuals.equilibrium, twice.residuals.equilibrium);
+    EXPECT_EQ(once.residuals.supports, twice.residuals.supports);
+    EXPECT_EQ(once.contact.resultants[0].force, twice.contact.resultants[0].force);
     EXPECT_LT(once.balance.difference, 1e-8) << i;
     EXPECT_NEAR(once.contact.resultants[0].force[2], pressure, 1e-6) << i;
   }
@@ -138,10 +148,32 @@ TEST(LoadSteps, StatesAreValuesThatTheNextStartsFrom)
   EXPECT_EQ(rows(0), rows(2));
   EXPECT_LT(rows(3), rows(2));  // the guide lets go: other rows, while those of the states before are as they were
   EXPECT_TRUE(run.states[0].rows->constraints.contacts.slipped.empty());
+  const auto system = [&](std::size_t i) { return &run.states[i].problem.system(); };
+  EXPECT_EQ(system(0), system(1));
+  EXPECT_EQ(system(0), system(2));
+  EXPECT_NE(system(0), system(3));
   EXPECT_EQ(model::write_deck(run.deck()), before);
 }
 
-// More than friction can carry.
+// A state may have several after it, on its own system and on another one, in any order.
+TEST(LoadSteps, GoOnFromAnyState)
+{
+  for (const std::string last : {"scale: {push: 0.5}", "off: [guide]"}) {
+    Analysis run(blocks + supports + "contacts: [{secondary: upper.zmin, primary: lower.zmax, friction: {coulomb: 0.5}}]\n" +
+                 "steps: [{name: press, scale: {push: 0}}, {name: push, scale: {push: 1}}, {name: last, " + last + "}]\n");
+    run.solve_all();
+    for (const std::size_t i : {1U, 2U, 1U}) {
+      const auto again = run.solve_again(i);
+      double apart = 0, size = 0;
+      for (std::size_t s = 0; s < again.displacement.size(); ++s) {
+        apart += (run.states[i].displacement[s] - again.displacement[s]).squaredNorm();
+        size += again.displacement[s].squaredNorm();
+      }
+      EXPECT_LT(std::sqrt(run.comm.sum(apart)), 1e-7 * std::sqrt(run.comm.sum(size))) << last << ", state " << i;
+    }
+  }
+}
+
 // From the slip of one state friction goes on in the next, with all that it is off by.
 TEST(LoadSteps, ErrorsOfSlipAddUp)
 {
@@ -159,6 +191,7 @@ TEST(LoadSteps, ErrorsOfSlipAddUp)
   EXPECT_GT(sum, 0);
 }
 
+// More than friction can carry.
 TEST(LoadSteps, NoEquilibriumBeyondFriction)
 {
   Analysis run(blocks + supports + "contacts: [{secondary: upper.zmin, primary: lower.zmax, friction: {coulomb: 0.2}}]\n");

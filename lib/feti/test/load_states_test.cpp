@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "cube.hpp"
+#include "feti/displacements.hpp"
 
 namespace mortise::feti {
 namespace {
@@ -32,6 +33,58 @@ TEST(LoadStates, OneOfOtherLoadsAndBoundsIsAsIfItWereAlone)
   EXPECT_EQ(problem.right_hand_side(), before);
   EXPECT_EQ(apart(d, before->b), 0);
   EXPECT_GT(apart(now->b, before->b), 0.1 * before->b.norm2());
+}
+
+// Two load states on one system at once, solved by two who know nothing of each other, one in the midst of the other: each has
+// its own solution, as it would have alone, and the way back to it.
+TEST(LoadStates, TwoOnOneSystemAreApart)
+{
+  Cube cube(10, true);
+  const auto one = cube.problem();
+  const auto load = cube.load;
+  for (auto& f : cube.load) f *= -2.5;
+  for (auto& prescribed : cube.constraints.prescribed) prescribed.value += 0.125 * prescribed.component;
+  const auto other = one.with_loads(cube.shared_constraints(), cube.load).value();
+  struct Found {
+    qp::Solution solution;
+    std::vector<Eigen::VectorXd> u;
+  };
+  const auto solve = [](const DualProblem& problem, const qp::Observer& observer) {
+    const auto preconditioner = problem.system().make_preconditioner();
+    const RememberedProduct product(problem.system().hessian());
+    qp::Hessian hessian(product, 1000);
+    const qp::Programme programme{hessian, problem.equality(), problem.set()};
+    auto solution = qp::FaceNewton(programme, preconditioner.get())
+                        .solve(*problem.right_hand_side(), programme.set.radii(), nullptr, {}, {1e-10, {}}, observer);
+    EXPECT_TRUE(solution.converged);
+    Displacements displacements(problem, product);
+    auto u = displacements.at(solution.x, solution.nu);
+    return Found{std::move(solution), std::move(u)};
+  };
+  const Found alone = solve(one, {}), other_alone = solve(other, {});
+  std::optional<Found> amid;
+  const Found around = solve(one, [&](const qp::Progress&) {
+    if (!amid) amid = solve(other, {});
+  });
+  ASSERT_TRUE(amid);
+  const auto expect_same = [](const Found& a, const Found& b) {
+    EXPECT_EQ(view(a.solution.x), view(b.solution.x));
+    EXPECT_EQ(a.u, b.u);
+  };
+  expect_same(around, alone);
+  expect_same(*amid, other_alone);
+  EXPECT_LT(one.imbalance(around.u, around.solution.x), 1e-9);
+  EXPECT_LT(other.imbalance(amid->u, amid->solution.x), 1e-9);
+  EXPECT_GT(one.imbalance(amid->u, amid->solution.x), 0.1);
+  EXPECT_EQ(one.load(), load);
+  EXPECT_EQ(other.load(), cube.load);
+  const Found own_system = solve(cube.problem(), {});
+  double apart = 0, size = 0;
+  for (std::size_t s = 0; s < amid->u.size(); ++s) {
+    apart += (amid->u[s] - own_system.u[s]).squaredNorm();
+    size += own_system.u[s].squaredNorm();
+  }
+  EXPECT_LT(std::sqrt(cube.comm.sum(apart)), 1e-8 * std::sqrt(cube.comm.sum(size)));
 }
 
 TEST(LoadStates, LoadsThatDriveAFreeMotionLaterAreNoEquilibrium)
