@@ -179,8 +179,9 @@ LargeTurn large_turn(const feti::DualProblem& problem, const Vector& lambda, con
                      std::span<const double> strain_energy)
 {
   // Of all energy, at least, where it is looked at; a point of a body from its centre, over the radius, at most; of the body
-  // that feels most of it.
-  constexpr double least = 0.1, farthest = 5, concerned = 0.01;
+  // that feels most of it; of all that contacts feel, what rigid motions leave where nothing holds the bodies, as facets are no
+  // curves.
+  constexpr double least = 0.1, farthest = 5, concerned = 0.01, rigid = 0.1;
   if (kinematics == fem::Kinematics::axisymmetric) return {};
   const auto& comm = problem.communicator();
   const auto& contacts = problem.constraints().contacts;
@@ -198,9 +199,11 @@ LargeTurn large_turn(const feti::DualProblem& problem, const Vector& lambda, con
     const Point& omega = turns[b].rigid.rotation;
     return Point(0.5 * omega.cross(omega.cross(r)));
   });
-  const Eigen::VectorXd lacks = least_felt(problem, motions, firmness(problem, pressing, states), problem.jumps(second_order));
+  const Eigen::VectorXd whole = problem.jumps(second_order);
+  const Eigen::VectorXd lacks = least_felt(problem, motions, firmness(problem, pressing, states), whole);
   const Eigen::VectorXd work = pressing.cwiseProduct(lacks), size = work.cwiseAbs();
   const auto of_bodies = motions.sizes(problem.jump().apply_transpose(problem.multipliers(size)));
+  if (!(comm.sum(size.sum()) > rigid * comm.sum(pressing.dot(whole.cwiseAbs())))) return {};
   LargeTurn result;
   double energy = 0;
   for (std::size_t b = 0; b < of_bodies.size(); ++b) {
