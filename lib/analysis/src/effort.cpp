@@ -58,7 +58,7 @@ struct CountedRows {
   double closing = 0;       // of contacts that may open
   double prescribed = 0;    // by supports that stay rows
   bool eliminated = false;  // the other supports: with the stiffness, by factors of their own
-  bool rigid = true;        // nothing gives way, or moves by something unknown
+  bool rigid = true;        // nothing gives way
 };
 
 // Collective.
@@ -81,8 +81,7 @@ CountedRows count_rows(const Assembly& assembly, const constraint::Constraints& 
                           (rows.eliminated ? 0 : along_axes));
   rows.all = rows.prescribed + static_cast<double>(comm.sum(static_cast<long long>(contacts.rows.size()))) +
              comm.sum(rows_between_skins(assembly.decomposition(), assembly.interface()));
-  rows.rigid = !comm.any(!constraints.springs.own.empty() || !constraints.mean_motions.empty() ||
-                         !constraints.pretension_sections.empty() || coupled > 0);
+  rows.rigid = !comm.any(!constraints.springs.own.empty() || !constraints.mean_motions.empty());
   return rows;
 }
 

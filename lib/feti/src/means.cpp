@@ -51,7 +51,13 @@ qp::Means means_of(const DualSystem& system, qp::ActiveSetPreconditioner* precon
   const auto make_explicit = [&system] {
     const bool slender = inaccuracy(system) > inaccurate;
     const auto turn = SparseProblem::turn(system, slender);
-    if (turn == SparseProblem::Turn::first) return sparse_programme(system, slender);
+    if (turn == SparseProblem::Turn::alone) return sparse_programme(system, slender);
+    if (turn == SparseProblem::Turn::first) {
+      auto programme = sparse_programme(system, slender);
+      programme.instead = [&system] { return dense_programme(system); };
+      programme.instead_of_none = true;
+      return programme;
+    }
     if (turn == SparseProblem::Turn::never) return dense_programme(system);
     // F as a dense matrix is large in soft motions: little may be left in it of what thin cells do. And each of its columns is a
     // solution that has to be refined.

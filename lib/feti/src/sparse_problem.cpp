@@ -11,11 +11,12 @@ namespace mortise::feti {
 
 namespace {
 
-constexpr double dense_guesses = 8;        // of a direct solution with dense matrices
-constexpr double sparse_problems = 30;     // linear problems of one with sparse ones
-constexpr double steps_of_gmres = 15;      // in each of these
-constexpr double slow = 8;                 // operations of a factor in the time of one that a solution with it takes
-constexpr double some_seconds = 1e11;      // operations
+constexpr double dense_guesses = 8;     // of a direct solution with dense matrices
+constexpr double sparse_problems = 30;  // linear problems of one with sparse ones
+constexpr double steps_of_gmres = 15;   // in each of these
+constexpr double slow = 8;              // operations of a factor in the time of one that a solution with it takes
+constexpr double some_seconds = 1e11;   // operations
+constexpr double half_a_minute = 1e12;
 constexpr double joined = 1.3;             // entries of the factor of joined bodies, over those of their own
 constexpr std::size_t most_entries = 400;  // of a row of B, and of a column of K on average
 
@@ -71,7 +72,8 @@ SparseProblem::Turn SparseProblem::turn(const DualSystem& system, bool slender)
   const auto& comm = system.communicator();
   const auto& subdomains = system.clusters().subdomains();
   auto entries = entries_of_rows(system.jump());
-  bool dense = system.springs() || system.clusters().kinds() > 0 || system.equality().size() != system.kernel_dimension();
+  bool dense = system.springs() || system.clusters().kinds() > 0;
+  dense = dense || (system.equality().size() != system.kernel_dimension() && !system.gauged().empty());
   const auto& jump = system.jump();
   const Global end = system.gauges_hold_free_motions() ? jump.contact_rows().second : system.dual_unknowns();
   for (std::size_t i = 0; i < entries.size(); ++i)
@@ -90,9 +92,10 @@ SparseProblem::Turn SparseProblem::turn(const DualSystem& system, bool slender)
   const double closing = sums[3], single = sums[4];
   const double rows = static_cast<double>(system.dual_unknowns()) - (single > few_supports ? single : 0);
   const double work = work_of_sparse_solution(sums[2], sums[1]);
-  const bool quick = work < worth_of_sparse * work_of_dense_solution(rows - closing, closing);
+  const double dense_work = work_of_dense_solution(rows - closing, closing);
+  const bool quick = work < worth_of_sparse * dense_work;
   if (sums[0] > 0) return Turn::never;
-  if (quick && rows >= many_rows) return Turn::first;
+  if (quick && rows >= many_rows) return dense_work < half_a_minute ? Turn::first : Turn::alone;
   return quick || slender || work < some_seconds ? Turn::second : Turn::never;
 }
 
@@ -119,6 +122,13 @@ SparseProblem::SparseProblem(const DualSystem& system, bool patient)
         entries.insert(entries.end(), {static_cast<double>(jump.touched_rows()->getGlobalElement(block.row[r])),
                                        static_cast<double>(offset_[s] + block.unknown[i]), block.coefficient[i]});
   }
+  others_ = static_cast<int>(system.equality().size() - system.kernel_dimension());
+  const SparseMatrix& g = system.equality().local();  // -parts of the unknowns besides: row . u = bound + part s
+  for (int j = 0; j < g.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(g, j); it; ++it)
+      if (const auto k = static_cast<int>(it.row()) - system.kernel_dimension(); k >= 0)
+        entries.insert(entries.end(), {static_cast<double>(owned[static_cast<std::size_t>(j)]),
+                                       static_cast<double>(unknowns_ + k), -it.value()});
   entries = feti::on_root(std::move(entries), comm);
   const auto compliance = rows_->to_root(jump.compliance());
   const auto set = rows_->to_root(system.set());
@@ -126,9 +136,14 @@ SparseProblem::SparseProblem(const DualSystem& system, bool patient)
   const auto motions = motions_on_root();
   collectively(comm, [&] {
     if (!comm.root()) return;
-    auto rows = assembled<SupportElimination::Rows>(entries, system.dual_unknowns(), unknowns_);
+    auto rows = assembled<SupportElimination::Rows>(entries, system.dual_unknowns(), unknowns_ + others_);
     gauges_ = std::make_unique<Gauges>(rows, motions);
+    if (others_ > 0) {
+      const Eigen::SparseMatrix<double> of_subdomains = Eigen::SparseMatrix<double>(rows).leftCols(unknowns_);
+      of_inverse_ = std::make_unique<SupportElimination>(of_subdomains, as_vector(compliance), set);
+    }
     elimination_ = std::make_unique<SupportElimination>(std::move(rows), as_vector(compliance), set);
+    stiffness.conservativeResize(unknowns_ + others_, unknowns_ + others_);
     whole_ = std::make_unique<WholeProblem>(std::move(stiffness), *elimination_, patient);
   });
 }
@@ -162,7 +177,7 @@ SparseMatrix SparseProblem::stiffness_on_root(bool regularised) const
 Eigen::SparseMatrix<double> SparseProblem::motions_on_root() const
 {
   const auto& comm = system_.communicator();
-  if (!system_.gauges_hold_free_motions()) return Eigen::SparseMatrix<double>(unknowns_, 0);
+  if (!system_.gauges_hold_free_motions()) return Eigen::SparseMatrix<double>(unknowns_ + others_, 0);
   const auto motions = system_.gauged_motions();
   std::vector<double> entries;
   for (std::size_t k = 0; k < motions.size(); ++k)
@@ -184,7 +199,7 @@ VectorXd SparseProblem::on_root(const std::vector<VectorXd>& parts) const
 
 SparseProblem::Result SparseProblem::solve(const qp::RightHandSide& right, const qp::FeasibleSet& set) const
 {
-  return solve(right.f, right.c, set, nullptr);
+  return solve(right.f, right.c, right.e, set, nullptr);
 }
 
 // Forces R de move bodies and nothing else: c' = c + d - d' + B K^+ R de.
@@ -201,14 +216,16 @@ SparseProblem::Result SparseProblem::go_on(const qp::RightHandSide& right, const
   clusters.apply_inverse(push);
   const Vector moved = system_.jump().apply(push);
   const VectorXd bound = right.c + view(right.b) - view(linear) + view(moved);
-  return solve(f, bound, set, &near);
+  return solve(f, bound, e, set, &near);
 }
 
-SparseProblem::Result SparseProblem::solve(const std::vector<VectorXd>& f, const VectorXd& bound, const qp::FeasibleSet& set,
-                                           const Result* near) const
+SparseProblem::Result SparseProblem::solve(const std::vector<VectorXd>& f, const VectorXd& bound, const VectorXd& e,
+                                           const qp::FeasibleSet& set, const Result* near) const
 {
   const auto& comm = system_.communicator();
-  const VectorXd load = on_root(f);
+  VectorXd load = on_root(f);
+  load.conservativeResize(load.size() + others_);
+  load.tail(others_) = -e.tail(others_);
   const bool known = near && near->reaction;
   const auto c = rows_->to_root(bound), start = known ? rows_->to_root(view(near->x)) : std::vector<double>(),
              felt = known ? rows_->to_root(view(*near->reaction)) : std::vector<double>();
@@ -240,6 +257,7 @@ SparseProblem::Result SparseProblem::solve(const std::vector<VectorXd>& f, const
     result.nu.segment(clusters.first(s), clusters.modes()) =
         clusters.coordinates(s, elastic[s] - as_vector(u).segment(offset_[s], elastic[s].size()));
   comm.sum_in_place({result.nu.data(), static_cast<std::size_t>(result.nu.size())});
+  result.nu.tail(others_) = as_vector(u).tail(others_);
   return result;
 }
 
@@ -250,7 +268,7 @@ std::unique_ptr<const WholeInverse> SparseProblem::make_inverse() const
   SparseMatrix regularised = stiffness_on_root(true);
   std::unique_ptr<const WholeInverse> inverse;
   collectively(comm, [&] {
-    if (comm.root()) inverse = std::make_unique<WholeInverse>(std::move(regularised), *elimination_);
+    if (comm.root()) inverse = std::make_unique<WholeInverse>(std::move(regularised), of_inverse_ ? *of_inverse_ : *elimination_);
   });
   return inverse;
 }

@@ -105,6 +105,7 @@ class DirectSolver : public Solver {
       improve(problem, found, goal);
       if (accepted_) return found;
     }
+    if (found.converged && matrices_.instead_of_none) return found;
     if (matrices_.instead) others_ = std::exchange(matrices_.instead, {})();
     if (!others_) return found;
     auto next = others_->solve(problem.right, problem.set);
@@ -202,7 +203,8 @@ class DirectSolver : public Solver {
         least = size;
         best = found;
       }
-      if (!nearer || step == most_corrections || (size <= enough && is_nothing(felt, found, goal) && fits_together(found, goal))) break;
+      if (!nearer || step == most_corrections || (size <= enough && is_nothing(felt, found, goal) && fits_together(found, goal)))
+        break;
       linear.update(-1, defect, 1);
       right_side += lacking;
       auto next = matrices_.go_on(problem.right, linear, right_side, problem.set, found);

@@ -103,7 +103,13 @@ SparseSystem::SparseSystem(const SparseMatrices& matrices, const FeasibleSet& se
 {
   for (int row = 0; row < matrices.b.rows(); ++row)
     for (decltype(matrices_.b)::InnerIterator it(matrices_.b, row); it; ++it)
-      own_[row] += it.value() * it.value() / diagonal_[it.col()];
+      if (diagonal_[it.col()] > 0) own_[row] += it.value() * it.value() / diagonal_[it.col()];
+  // What has no stiffness is as stiff as the rows that hold it.
+  VectorXd by_rows = VectorXd::Zero(diagonal_.size());
+  for (int row = 0; row < matrices.b.rows(); ++row)
+    for (decltype(matrices_.b)::InnerIterator it(matrices_.b, row); it; ++it)
+      if (own_[row] > 0) by_rows[it.col()] += it.value() * it.value() / own_[row];
+  diagonal_ = (diagonal_.array() > 0).select(diagonal_, by_rows);
   own_ = shared_by_discs(std::move(own_), set);
 }
 

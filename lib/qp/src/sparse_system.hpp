@@ -83,7 +83,7 @@ class SparseSystem : public ContactSystem {
   Eigen::VectorXd size_of_give(const Eigen::VectorXd& x) const override { return matrices_.s.cwiseProduct(x.cwiseAbs()); }
   double square_of_rounding(const Eigen::VectorXd& x, const Eigen::VectorXd& u) const override;
 
-  /// By the diagonal of K.
+  /// By the diagonal of K, and what stands in for it where there is no stiffness.
   double square(const Eigen::VectorXd& l) const override { return l.dot(l.cwiseQuotient(diagonal_)); }
   void solve(const Guess& guess, const Eigen::VectorXd& b, const Eigen::VectorXd& e, Eigen::VectorXd& x,
              Eigen::VectorXd& u) override;

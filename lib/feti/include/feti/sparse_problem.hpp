@@ -31,12 +31,13 @@ class WholeProblem;
 /// neither copies nor moves.
 class SparseProblem : public qp::ActiveSetPreconditioner {
  public:
-  /// When a direct solution should take these: never, first, or after dense matrices have failed.
-  enum class Turn { never, first, second };
-  /// Possible for bodies whose stiffness is sparse, with nothing but rigid motions in G, without springs and without long
-  /// rows over whole bodies but gauges of motions that nothing resists. First where there are many rows and sparse matrices take
-  /// less time; second where they take no more than some times as long, or some seconds, or bodies are slender and solutions
-  /// refined, of which dense matrices take one for each row. The same on every rank. Collective.
+  /// When a direct solution should take these: never, after dense matrices have failed, before dense ones, or alone.
+  enum class Turn { never, second, first, alone };
+  /// Possible for bodies whose stiffness is sparse, without springs and without long rows over whole bodies but gauges of motions
+  /// that nothing resists, which unknowns besides displacements (see Unknown) must not take part in. First where there are many
+  /// rows and sparse matrices take less time; and alone if dense ones would take more than half a
+  /// minute; second where they take no more than some times as long, or some seconds, or bodies
+  /// are slender and solutions refined, of which dense matrices take one for each row. The same on every rank. Collective.
   static Turn turn(const DualSystem& system, bool slender);
 
   /// The system outlives it. `patient`: as of qp::SparseNewton. Throws Error(machine) if memory runs out. Collective.
@@ -63,16 +64,18 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   Eigen::SparseMatrix<double> motions_on_root() const;
   std::unique_ptr<const WholeInverse> make_inverse() const;
   Eigen::VectorXd on_root(const std::vector<Eigen::VectorXd>& parts) const;
-  Result solve(const std::vector<Eigen::VectorXd>& f, const Eigen::VectorXd& bound, const qp::FeasibleSet& set,
-               const Result* near) const;
+  Result solve(const std::vector<Eigen::VectorXd>& f, const Eigen::VectorXd& bound, const Eigen::VectorXd& e,
+               const qp::FeasibleSet& set, const Result* near) const;
 
   const DualSystem& system_;
   std::unique_ptr<const RowsOnRoot> rows_;
   std::vector<int> offset_;  // of the unknowns of this rank's subdomains among all; one past the last
-  int unknowns_ = 0;         // of all ranks
+  int unknowns_ = 0;         // of all subdomains of all ranks
+  int others_ = 0;           // the unknowns besides, which come last and have no stiffness: see Unknown
   // On rank 0:
   std::unique_ptr<const Gauges> gauges_;
   std::unique_ptr<const SupportElimination> elimination_;
+  std::unique_ptr<const SupportElimination> of_inverse_;  // without these unknowns, if there are any
   std::unique_ptr<WholeProblem> whole_;
   Lazy<std::unique_ptr<const WholeInverse>> inverse_;  // a factor as large as K's, for those who go on from a solution
 };

@@ -44,6 +44,7 @@ struct ExplicitProgramme {
   std::function<ExplicitProgramme()> instead = {};
   /// Whether products with A are rougher than these matrices, so that a solution is judged by its defect alone.
   bool rough_products = false;
+  bool instead_of_none = false;  ///< `instead` is for where these find no solution: one that does not settle will do
 };
 
 /// What a solver may use besides the problem.

@@ -18,7 +18,7 @@
 namespace mortise::qp {
 
 struct SparseMatrices {
-  SparseMatrix k;                                       ///< K, lower triangle: symmetric, positive semidefinite
+  SparseMatrix k;  ///< K, lower triangle: symmetric, positive semidefinite; what has no stiffness rows alone hold
   Eigen::SparseMatrix<double, Eigen::RowMajor, int> b;  ///< B: rows x unknowns of K
   Eigen::VectorXd s;                                    ///< S, diagonal: what rows give way by themselves
 };
