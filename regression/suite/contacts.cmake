@@ -48,6 +48,9 @@ foreach(element hex20 tet10 prism6)
 endforeach()
 mortise_regression(bond_held_alike VARIANT .swapped EXPECTED cases/bond_held_alike.expected.json RANKS 1
                    SET mesh.blocks.lower.element=tet10 mesh.blocks.upper.element=hex20 contacts[0].secondary=upper.zmin contacts[0].primary=lower.zmax)
+mortise_regression(friction_held_askew RANKS 1 3 STUDY_RANKS 2)
+mortise_regression(friction_held_askew VARIANT .hex20 RANKS 1 EXPECTED cases/friction_held_askew.expected.json
+                   SET mesh.blocks.lower.element=hex20 mesh.blocks.upper.element=hex20 "mesh.blocks.upper.cells=[4, 4, 2]")
 mortise_regression(bond_matched RANKS 1 3)
 mortise_regression(bond_matched VARIANT .swapped EXPECTED cases/bond_matched.expected.json RANKS 1
   SET contacts[0].secondary=upper_joint contacts[0].primary=lower_joint)

@@ -260,8 +260,9 @@ class ContactRows {
   std::optional<double> freedom_of_primary(std::size_t p) const
   {
     constexpr double of_pair = 0.01, of_mean = 0.5;
-    if (options().obstacle) return std::nullopt;
-    return !s_.faces.is_corner(p) && matches_[s_.faces.surface_node(p)] ? of_pair : of_mean;
+    return options().obstacle                                             ? std::optional<double>()
+           : !s_.faces.is_corner(p) && matches_[s_.faces.surface_node(p)] ? of_pair
+                                                                          : of_mean;
   }
 
   // Of a node whose direction is known: appends its tangents. Returns those along which supports hold both sides.
@@ -275,8 +276,11 @@ class ContactRows {
     if (bonded()) return prescribed;
     writer_.leave_what_moves(terms_, node.normal, node.tangents);
     const auto others = other_tangents(node.normal, node.tangents, s_.dimension);
-    for (const auto& tangent : writer_.across_axis(here, node.normal, others))
-      if (writer_.prescribed_on_both_sides(terms_, tangent)) prescribed.push_back(tangent);
+    for (const auto& tangent : writer_.across_axis(here, node.normal, others)) {
+      const auto held = writer_.held_on_both_sides(terms_, node.normal, tangent);
+      if (held && held->moves) node.tangents.push_back(held->axis);
+      if (held && !held->moves) prescribed.push_back(held->axis);
+    }
     return prescribed;
   }
 

@@ -191,6 +191,21 @@ void RowWriter::leave_what_moves(std::span<const Term> terms, const Point& norma
   if (moves.values[1] >= least) tangents.emplace_back(plane * moves.vectors.col(1));
 }
 
+std::optional<Point> RowWriter::motion_at_prescribed_nodes(std::span<const Term> terms, bool on_primary, const Point& axis,
+                                                           double alike) const
+{
+  constexpr double nothing = 1e-6;
+  std::optional<Point> moves;
+  for (const auto& term : terms) {
+    if (term.on_primary != on_primary) continue;
+    const Point free = free_part(term) * axis;
+    if (free.dot(axis) > 1 - nothing) continue;
+    if (moves && (free - *moves).norm() > alike) return {};
+    moves = free;
+  }
+  return moves;
+}
+
 double RowWriter::part_at_prescribed_nodes(std::span<const Term> terms, bool on_primary, const Point& axis) const
 {
   constexpr double nothing = 1e-6;
@@ -204,9 +219,38 @@ double RowWriter::part_at_prescribed_nodes(std::span<const Term> terms, bool on_
   return all != 0 ? prescribed / all : 1;
 }
 
-bool RowWriter::prescribed_on_both_sides(std::span<const Term> terms, const Point& axis) const
+std::optional<RowWriter::Held> RowWriter::held_on_both_sides(std::span<const Term> terms, const Point& normal,
+                                                             const Point& tangent) const
 {
-  return std::min(part_at_prescribed_nodes(terms, false, axis), part_at_prescribed_nodes(terms, true, axis)) > least_prescribed;
+  constexpr double nothing = 1e-12, least_askew = 1e-3;
+  const double held = std::min(part_at_prescribed_nodes(terms, false, tangent), part_at_prescribed_nodes(terms, true, tangent));
+  if (!(held > least_prescribed)) return {};
+  const auto secondary = motion_at_prescribed_nodes(terms, false, tangent, least_askew),
+             primary = motion_at_prescribed_nodes(terms, true, tangent, least_askew);
+  const bool alike = secondary && primary && (*secondary - *primary).norm() < least_askew;
+  if (!secondary || !primary || alike) return Held{tangent, false};
+  if (askew_part(terms, normal, tangent) > least_askew) return Held{tangent, true};
+  const Point moves = mobility(terms) * normal;
+  if (moves.squaredNorm() < nothing) return Held{tangent, false};
+  return Held{Point(tangent - moves * (moves.dot(tangent) / moves.squaredNorm())).normalized(), false};
+}
+
+double RowWriter::askew_part(std::span<const Term> terms, const Point& normal, const Point& axis) const
+{
+  constexpr double nothing = 1e-6;
+  double all = 0, askew = 0, alike = 0, felt = 0;
+  for (const auto& term : terms) {
+    const double square = term.value * term.value;
+    const Eigen::Matrix3d free = free_part(term);
+    const double moves = axis.dot(free * axis);
+    all += square;
+    felt += square * normal.dot(free * normal);
+    if (moves > 1 - nothing) continue;
+    askew += square * moves;
+    alike += square * axis.dot(free * normal);
+  }
+  const double rest = felt > 0 ? askew - alike * alike / felt : askew;
+  return all > 0 ? std::sqrt(std::max(rest, 0.0) / all) : 0;
 }
 
 double RowWriter::prescribed_part(std::span<const Term> terms, double d, const Point& axis)

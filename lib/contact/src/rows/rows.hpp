@@ -73,11 +73,15 @@ class RowWriter {
   /// Appends the row <= bound, without what supports hold, with what comes to it besides.
   void add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts,
            std::span<const Couple> couples = {});
-  /// Whether supports hold more than a tenth of each side along an axis: enough to bear what rubs there.
-  bool prescribed_on_both_sides(std::span<const Term> terms, const Point& axis) const;
+  /// Where supports hold more than a tenth of each side along a tangent, enough to bear what rubs there.
+  struct Held {
+    Point axis;  ///< along which they bear it: what of the tangent does not move with the normal, a unit vector
+    bool moves;  ///< nodes that they hold askew move along the tangent otherwise, so that friction would be lost without a row
+  };
+  std::optional<Held> held_on_both_sides(std::span<const Term> terms, const Point& normal, const Point& tangent) const;
   /// Appends a row along which nothing moves but supports, so that what they make of it stands in its bound, or hardly anything:
-  /// nodes that supports leave free leave their part to the others of their side, lest forces are lost. For those of
-  /// prescribed_on_both_sides().
+  /// nodes that supports leave free leave their part to the others of their side, lest forces are lost. For axes of
+  /// held_on_both_sides().
   void add_prescribed(std::span<const Term> terms, double d, const Point& axis, constraint::Contacts& contacts);
 
  private:
@@ -111,6 +115,13 @@ class RowWriter {
   {
     return (term.on_primary ? primary_supports_ : supports_).skew_supports(node_of(term));
   }
+  // What moves along an axis at nodes that supports hold askew to it, what the row along the normal feels aside, as part of the
+  // row.
+  double askew_part(std::span<const Term> terms, const Point& normal, const Point& axis) const;
+  // What nodes of one side that supports hold somewhat along an axis move of it, if that is the same for all of them; a point
+  // inside a face may see those of several planes.
+  std::optional<Point> motion_at_prescribed_nodes(std::span<const Term> terms, bool on_primary, const Point& axis,
+                                                  double alike) const;
   // The part of one side at nodes that supports hold somewhat along an axis; 1 of nothing.
   double part_at_prescribed_nodes(std::span<const Term> terms, bool on_primary, const Point& axis) const;
   void merge();
