@@ -18,8 +18,8 @@ namespace {
 
 // Of what rows feel differently from node to node, what facets may be the cause of: a part of the root of FreeMotion::sagitta,
 // and rounding. More is a shape; but not what round bodies feel of a turn beside the middle of where they press on flat ones,
-// whose normals rows have there: less than a tenth, weighted by forces.
-constexpr double of_facets = 0.15, rounding = 1e-6, of_rolling = 0.1;
+// whose normals rows have there: less than half, weighted by forces.
+constexpr double of_facets = 0.15, rounding = 1e-6, of_rolling = 0.5;
 
 struct Search {
   const DualProblem& problem;
@@ -54,6 +54,7 @@ BodyRows without_friction(const Search& search, const std::vector<bool>& slips)
 struct Felt {
   double friction = 0, normal = 0, alike = 0;
   bool facets = false;  // the rest is no more than what facets may feel
+  bool rolls = false;   // or no more than what round bodies feel beside the middle of where they press
 };
 
 Felt feel(const Search& search, const Eigen::VectorXd& amplitudes, double sagitta)
@@ -94,7 +95,8 @@ Felt feel(const Search& search, const Eigen::VectorXd& amplitudes, double sagitt
     scatter = std::max(scatter, std::sqrt(std::max(sum[3] / sum[1] - mean * mean, 0.0)));
     if (sum[4] > 0) rolling = std::max(rolling, std::sqrt(std::max(sum[6] / sum[4], 0.0)));
   }
-  result.facets = scatter < of_facets * std::sqrt(sagitta) + rounding || rolling < of_rolling;
+  result.facets = scatter < of_facets * std::sqrt(sagitta) + rounding;
+  result.rolls = rolling < of_rolling;
   return result;
 }
 
@@ -188,8 +190,9 @@ std::optional<std::string> more_than_friction(const Search& search, const Unit& 
     if (std::abs(drive) <= of_forces * unit.forces) continue;
     if (drive < 0) amplitudes *= -1, drive *= -1;
     const Felt felt = feel(search, amplitudes, unit.motions[k].sagitta);
-    const double missing = drive - felt.alike - felt.friction;
-    if (!felt.facets || missing <= std::max(search.slack * felt.friction, of_forces * unit.forces)) continue;
+    if (!felt.facets && !felt.rolls) continue;
+    const double missing = drive - felt.friction - (felt.facets ? felt.alike : 0);
+    if (missing <= std::max(search.slack * felt.friction, of_forces * unit.forces)) continue;
     return name(search, unit.motions[k].motions.front()) + fmt::format(
                                                                "; friction holds {:.3g} % of what drives it, and facets of the "
                                                                "mesh are no support, nor is pressure that turned aside",
