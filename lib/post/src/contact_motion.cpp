@@ -87,16 +87,22 @@ namespace {
 
 constexpr double presses = 1e-3;  // of the largest force of the contact's points
 
+constexpr double flat = 1e-3;  // radians from face to face
+
 // The faces at what presses, of one side: the angle between two of them where the surface is flattest, at nodes between corners
-// none; the same at corners alone; their size, whose they are.
+// none; at corners its smallest radius, and whether it is round at all of them; their size, whose they are.
 struct Facets {
-  double flattest = std::numeric_limits<double>::infinity(), turn = flattest, size = 0;
+  double flattest = std::numeric_limits<double>::infinity(), radius = flattest, size = 0;
   int body = -1;
+  bool round = true;
 
   void take(const Nodal& node)
   {
     flattest = std::min(flattest, node.angle());
-    if (node.corner) turn = std::min(turn, node.angle());
+    if (!node.corner) return;
+    const double angle = node.angle();
+    round = round && angle > flat;
+    if (angle > flat) radius = std::min(radius, node.size / angle);
     size = std::max(size, node.size);
     body = std::max(body, node.body);
   }
@@ -190,15 +196,14 @@ std::vector<Patch> pressing_patches(std::span<const contact::Pair> pairs, const 
       result[c].widths.push_back(comm.max(ends[c][2 * k]) + comm.max(ends[c][2 * k + 1]));
     for (auto& side : result[c].sides) {
       side.flattest = -comm.max(-side.flattest);
-      side.turn = -comm.max(-side.turn);
+      side.radius = -comm.max(-side.radius);
+      side.round = !comm.any(!side.round);
       side.size = comm.max(side.size);
       side.body = static_cast<int>(comm.max(static_cast<double>(side.body)));
     }
   }
   return result;
 }
-
-constexpr double flat = 1e-3;  // radians from face to face
 
 // Of the secondary side to the primary one.
 Point relative_turn(const Patch& patch, const std::vector<BodyMotion>& motions)
@@ -288,9 +293,9 @@ std::vector<Warning> rolled_contacts(std::span<const contact::Pair> pairs, const
     const Point turn = relative_turn(patch, motions);
     for (const auto& side : patch.sides)
       for (std::size_t k = 0; k < patch.directions.size(); ++k) {
-        if (side.body < 0 || !(side.turn > flat) || !std::isfinite(side.turn)) continue;
+        if (side.body < 0 || !side.round || !std::isfinite(side.radius)) continue;
         const double angle = std::abs(turn.dot(patch.normal.cross(patch.directions[k])));
-        const double way = angle * side.size / side.turn;
+        const double way = angle * side.radius;
         if (!(patch.widths[k] > side.size) || !(way > part_of_width * patch.widths[k])) continue;  // narrower ones: facet_turns
         const auto& name = decomposition.catalogue.bodies[static_cast<std::size_t>(side.body)].name;
         Warning w{

@@ -146,20 +146,79 @@ Eigen::VectorXd firmness(const feti::DualProblem& problem, const Eigen::VectorXd
   return result;
 }
 
+// Which part of the second order each contact feels: 1 on flats, 1 - r / R of what is round by r and turns in what is round by R,
+// nothing of a turn about the axis of the surface that both share. Of the normals n at pressed points x, of forces lambda, along
+// the turn omega of each contact it is how much of omega x (x - mean x) . n rows feel of the rigid motions of first order.
+// `length`: of the bodies. Collective.
+std::vector<double> felt_of_flats(const feti::DualProblem& problem, const Eigen::VectorXd& pressing, const Eigen::VectorXd& felt,
+                                  std::span<const Point> turn, double length)
+{
+  constexpr double none = 1e-12, conformal = 0.02;  // of the squared way that a turn takes a body, and pressed points apart
+  const std::size_t contacts = turn.size();
+  struct Sums {
+    double force = 0, felt = 0, tilt = 0, across = 0, square = 0, spread = 0;  // the last three of deviations from means
+    Point at = Point::Zero();
+  };
+  static_assert(sizeof(Sums) == sizeof(double) * 9);
+  const auto& nodes = problem.constraints().contacts.nodes;
+  const auto& comm = problem.communicator();
+  std::vector<Sums> sums(contacts);
+  const auto for_each = [&](const auto& visit) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Local row = problem.node_rows()[i].normal;
+      if (pressing[row] > 0) visit(sums[static_cast<std::size_t>(nodes[i].contact)], nodes[i], pressing[row], felt[row]);
+    }
+  };
+  const auto sum = [&] { comm.sum_in_place({reinterpret_cast<double*>(sums.data()), sums.size() * 9}); };
+  for_each([](Sums& s, const auto& node, double force, double feels) {
+    s.force += force, s.felt += force * feels, s.at += force * node.at;
+  });
+  sum();
+  auto means = sums;
+  for (auto& mean : means)
+    if (mean.force > 0) mean.felt /= mean.force, mean.at /= mean.force;
+  const auto tilt_of = [&](const constraint::ContactNode& node) {
+    const auto c = static_cast<std::size_t>(node.contact);
+    return Point(turn[c].cross(node.at - means[c].at));
+  };
+  sums.assign(contacts, {});
+  for_each([&](Sums& s, const auto& node, double force, double) { s.tilt += force * tilt_of(node).dot(node.normal); });
+  sum();
+  for (std::size_t c = 0; c < contacts; ++c)
+    if (means[c].force > 0) means[c].tilt = sums[c].tilt / means[c].force;
+  sums.assign(contacts, {});
+  for_each([&](Sums& s, const auto& node, double force, double feels) {
+    const auto& mean = means[static_cast<std::size_t>(node.contact)];
+    const Point way = tilt_of(node);
+    const double tilt = way.dot(node.normal) - mean.tilt;
+    s.across += force * tilt * (feels - mean.felt), s.square += force * tilt * tilt, s.spread += force * way.squaredNorm();
+  });
+  sum();
+  std::vector<double> result;
+  for (std::size_t c = 0; c < contacts; ++c) {
+    const auto& s = sums[c];
+    const bool spread = s.spread > none * means[c].force * turn[c].squaredNorm() * length * length;  // else a single node
+    const bool round = spread && s.square <= conformal * s.spread;
+    result.push_back(!spread ? 1 : round ? 0 : std::clamp(std::abs(s.across) / s.square, 0.0, 1.0));
+  }
+  return result;
+}
+
 // e + row . v of each row for the rigid motions v that make the sum of its squares, times `weight`, least: by conjugate gradients
 // on the normal equations. Collective.
 Eigen::VectorXd least_felt(const feti::DualProblem& problem, const RigidMotions& motions, const Eigen::VectorXd& weight,
                            Eigen::VectorXd e)
 {
   constexpr int most = 300;
-  constexpr double small = 1e-6;
+  constexpr double small = 1e-6, rounding = 1e-9;  // of the first descent, and of what it is the sum of: beyond is no motion
   const auto pull = [&](const Eigen::VectorXd& rows) -> Eigen::VectorXd {
     return -motions.resultants(problem.jump().apply_transpose(problem.multipliers(weight.cwiseProduct(rows))));
   };
   Eigen::VectorXd descent = pull(e), direction = descent;
-  const double first = descent.squaredNorm();
-  double square = first;
-  for (int k = 0; k < most && square > small * small * first; ++k) {
+  double square = descent.squaredNorm();
+  const double enough =
+      std::max(small * small * square, std::pow(rounding * problem.communicator().sum(weight.dot(e.cwiseAbs())), 2));
+  for (int k = 0; k < most && square > enough; ++k) {
     const Eigen::VectorXd felt = problem.jumps(motions.of(direction));
     const double curvature = problem.communicator().sum(felt.dot(weight.cwiseProduct(felt)));
     if (!(curvature > 0)) break;
@@ -175,8 +234,8 @@ Eigen::VectorXd least_felt(const feti::DualProblem& problem, const RigidMotions&
 }  // namespace
 
 LargeTurn large_turn(const feti::DualProblem& problem, const Vector& lambda, const partition::Decomposition& decomposition,
-                     fem::Kinematics kinematics, const Fields& displacement, std::span<const contact::ContactNodeState> states,
-                     std::span<const double> strain_energy)
+                     fem::Kinematics kinematics, const Fields& displacement, std::span<const contact::Pair> pairs,
+                     std::span<const contact::ContactNodeState> states, std::span<const double> strain_energy)
 {
   // Of all energy, at least, where it is looked at; a point of a body from its centre, over the radius, at most; of the body
   // that feels most of it; of all that contacts feel, what rigid motions leave where nothing holds the bodies, as facets are no
@@ -199,7 +258,19 @@ LargeTurn large_turn(const feti::DualProblem& problem, const Vector& lambda, con
     const Point& omega = turns[b].rigid.rotation;
     return Point(0.5 * omega.cross(omega.cross(r)));
   });
-  const Eigen::VectorXd whole = problem.jumps(second_order);
+  const Fields first_order = motions.fields(
+      [&](std::size_t b, const Point& r) { return Point(turns[b].rigid.translation + turns[b].rigid.rotation.cross(r)); });
+  std::vector<Point> turn;  // of each contact
+  for (const auto& bodies : bodies_of_contacts(pairs, comm)) {
+    const auto fastest = std::ranges::max_element(bodies, {}, [&](int b) { return growth(static_cast<std::size_t>(b)); });
+    turn.push_back(fastest == bodies.end() ? Point(Point::Zero()) : turns[static_cast<std::size_t>(*fastest)].rigid.rotation);
+  }
+  double length = 0;
+  for (const auto& frame : motions.frames()) length = std::max(length, frame.radius);
+  const auto part = felt_of_flats(problem, pressing, problem.jumps(first_order), turn, length);
+  Eigen::VectorXd whole = problem.jumps(second_order);
+  for (std::size_t i = 0; i < contacts.nodes.size(); ++i)
+    if (!contacts.bonded[i]) whole[problem.node_rows()[i].normal] *= part[static_cast<std::size_t>(contacts.nodes[i].contact)];
   const Eigen::VectorXd lacks = least_felt(problem, motions, firmness(problem, pressing, states), whole);
   const Eigen::VectorXd work = pressing.cwiseProduct(lacks), size = work.cwiseAbs();
   const auto of_bodies = motions.sizes(problem.jump().apply_transpose(problem.multipliers(size)));

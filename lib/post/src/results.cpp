@@ -113,7 +113,7 @@ Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, co
   auto energies = results.stress.body_energy;
   comm.sum_in_place(energies);
   results.turn =
-      large_turn(problem, lambda, bodies.decomposition, bodies.kinematics, displacement, results.contact.states, energies);
+      large_turn(problem, lambda, bodies.decomposition, bodies.kinematics, displacement, pairs, results.contact.states, energies);
   results.reactions = reactions(problem, lambda, supports);
   results.couplings = coupling_states(problem, lambda);
   results.springs = spring_states(problem, lambda);

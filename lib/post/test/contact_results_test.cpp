@@ -303,7 +303,7 @@ TEST(LargeTurns, AreFeltBetweenWhatIsHeld)
       return body == 0 ? Point(Point::Zero()) : Point(Point(phi, 0, 0).cross(x - Point(1.5, 1.5, 1.5)));
     });
     const auto states = contact.results(problem, lambda, u).states;
-    return large_turn(problem, lambda, contact.column.decomposition, fem::Kinematics::solid, u, states, energies);
+    return large_turn(problem, lambda, contact.column.decomposition, fem::Kinematics::solid, u, contact.pairs, states, energies);
   };
   const double change = nodes * force * phi * phi / 2 / (2 * 3);
   const auto turn = found(true);
