@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "testing/quiet.hpp"
+
 namespace mortise::friction {
 namespace {
 
@@ -63,6 +65,31 @@ TEST(Relaxation, PointsThatStickWithoutALimitHaveNoSay)
   Relaxation all(comm), one(comm);
   const std::vector<std::pair<double, double>> path{{0, 1}, {1, 0.25}, {0.5, 0.75}};
   for (const auto& [now, next] : path) EXPECT_EQ(all({now, infinite, 3}, {next, 5, infinite}), one({now}, {next}));
+}
+
+// Each rank holds a part of the bounds, one of them maybe none: the step is that of all bounds.
+TEST(Relaxation, IsOfTheBoundsOfAllRanks)
+{
+  const Communicator& comm = world();
+  const Communicator alone(MPI_COMM_SELF);
+  Relaxation parts(comm), whole(alone);
+  const auto own = [&comm](const std::vector<double>& all) {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (static_cast<int>(i) % comm.size() == comm.rank()) result.push_back(all[i]);
+    return result;
+  };
+  const std::vector<std::pair<std::vector<double>, std::vector<double>>> path{
+      {{0, 0}, {1, 4}}, {{1, 4}, {0.5, 1}}, {{1, 2}, {2, 6}}};
+  std::vector<double> taken;
+  for (const auto& [now, next] : path) {
+    taken.push_back(whole(now, next));
+    EXPECT_NEAR(parts(own(now), own(next)), taken.back(), 1e-14);
+    EXPECT_EQ(parts.growing(), whole.growing());
+  }
+  // Steps (1, 4), (-1/2, -3), (1, 4): part (1 * 3/2 + 4 * 7) / (9/4 + 49), and of that as much once more.
+  EXPECT_NEAR(taken[1], 29.5 / 51.25, 1e-14);
+  EXPECT_NEAR(taken[2], taken[1] * (0.75 + 21) / 51.25, 1e-14);
 }
 
 }  // namespace

@@ -1,7 +1,13 @@
-// A wedge between two walls, and a load step of it with Coulomb friction.
+// A wedge whose states are known in closed form, and a load step of it with Coulomb friction.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "feti/means.hpp"
 #include "friction/coulomb.hpp"
@@ -9,18 +15,57 @@
 
 namespace mortise::friction {
 
-// A cube whose sides x = 0 and x = 1 are held by walls that lean by `slope` degrees against z; loaded by 1 along -z and by `push`
-// along y, all over.
-struct Wedge : feti::Blocks {
-  std::vector<Global> points;               // the nodes of both sides
-  std::vector<std::array<Point, 3>> frame;  // normal out of the wedge, and tangents
+// What each point of the wedge bears, with forces over its load. The wedge slides down by a length s as long as friction t up the
+// walls and its normal force n leave something of its load, and that presses its sides together by a = s sin(slope):
+//
+//     n sin(slope) + t cos(slope) = 1,  k a = n cos(slope) - t sin(slope);
+//
+// friction along the walls bears the push. Where it sticks a = 0; where it slides friction is all of the slip bound r, so that
+// t^2 = r^2 - push^2, and no bound below the push holds it.
+struct WedgeForces {
+  double slope, push, coefficient;  // degrees; a force; Coulomb's
 
-  Wedge(double slope, double push, int pieces, MPI_Comm mpi = MPI_COMM_WORLD)
-      : Blocks(
-            {{"wedge", {{0, 0, 0}, {1, 1, 1}, {2, 3, 3}, "hex8"}}}, {{"wedge", {1, 1, pieces}}}, [](int) { return 100.0; }, mpi)
+  double sine() const { return std::sin(slope * M_PI / 180); }
+  double cosine() const { return std::cos(slope * M_PI / 180); }
+  double up(double bound) const { return std::min(cosine(), std::sqrt(bound * bound - push * push)); }
+  double normal(double bound) const { return (1 - cosine() * up(bound)) / sine(); }
+  // The bound that Coulomb's law asks for at the forces with this one.
+  double next(double bound) const { return coefficient * normal(bound); }
+  // Its fixed point, with the root t of (t^2 + push^2) sin^2 = coefficient^2 (1 - t cos)^2 that leaves a normal force.
+  double bound() const
   {
-    for (std::size_t s = 0; s < load.size(); ++s)
-      fem::add_acceleration(decomposition.subdomains[s].mesh, fem::Kinematics::solid, 1.0, Point(0, push, -1), load[s]);
+    const double c = cosine(), squares = coefficient * coefficient, a = sine() * sine() - squares * c * c, b = squares * c,
+                 rest = push * push * sine() * sine() - squares;
+    return std::hypot((-b + std::sqrt(b * b - a * rest)) / a, push);
+  }
+  // More does not stay, whatever the walls press: there n sin = 1.
+  static double greatest_push(double slope, double coefficient) { return coefficient / std::sin(slope * M_PI / 180); }
+};
+
+// The corners of a cube of which every deformation costs the same, K = k (I - R R') with its rigid motions R. The sides x = 0 and
+// x = 1 are held by walls that lean by `slope` degrees against z; each corner is loaded by 1 along -z and by `push` along y.
+struct Wedge : feti::Blocks {
+  static constexpr double stiffness = 100;
+  static constexpr std::size_t count = 8;
+  std::vector<Global> points;               // of both sides; point i stands on rank i % ranks
+  std::vector<std::array<Point, 3>> frame;  // normal out of the wedge, and tangents: along y, and up
+
+  Wedge(double slope, double push)
+      : Blocks({{"wedge", {{0, 0, 0}, {1, 1, 1}, {1, 1, 1}, "hex8"}}}, {{"wedge", {1, 1, 1}}}, [](int) { return stiffness; })
+  {
+    feti::Subdomains subdomains;
+    system.nodal_stiffness.clear();
+    for (std::size_t s = 0; s < load.size(); ++s) {
+      const auto& mesh = decomposition.subdomains[s].mesh;
+      const Eigen::MatrixXd r = fem::rigid_motions(mesh.points, fem::Kinematics::solid);
+      const Eigen::MatrixXd k = stiffness * (Eigen::MatrixXd::Identity(r.rows(), r.rows()) - r * r.transpose());
+      const Eigen::MatrixXd lower = k.triangularView<Eigen::Lower>();
+      subdomains.push_back(std::make_shared<feti::ElasticSubdomain>(lower.sparseView(), r, mesh.points, 3, "cholmod"));
+      system.nodal_stiffness.push_back(feti::nodal_stiffness(k.diagonal(), 3));
+      for (std::size_t n = 0; n < mesh.points.size(); ++n)
+        load[s].segment(3 * static_cast<Eigen::Index>(n), 3) = Point(0, push, -1);
+    }
+    system.clusters = feti::Clusters(decomposition, interface, subdomains, system.nodal_stiffness, fem::Kinematics::solid);
     for (const bool left : {true, false}) {
       auto ids = comm.all_gather(side(left ? "wedge.xmin" : "wedge.xmax").node_id);
       std::sort(ids.begin(), ids.end());
@@ -46,15 +91,23 @@ struct Wedge : feti::Blocks {
 
 // What drives one load step, to a residual. Collective.
 struct CoulombStep {
-  CoulombStep(const feti::DualProblem& dual, double coefficient, const std::string& algorithm, double tolerance)
+  // `product`: with F, or nearly.
+  CoulombStep(const feti::DualProblem& dual, const Operator& product, double coefficient, const std::string& algorithm,
+              double tolerance)
       : problem(dual),
         laws{{Law::Kind::coulomb, coefficient}},
+        hessian(product, 0),
         budget(hessian, {}, qp::solver_kind(algorithm).steady),
         omega(with_coefficients(dual.system(), laws)),
         solver(qp::solver_kind(algorithm).make({hessian, dual.equality(), omega},
                                                feti::means_of(dual.system(), preconditioner.get(), budget))),
         right(dual.right_hand_side()),
-        goal{tolerance}
+        goal{tolerance},
+        options{tolerance, 100}
+  {
+  }
+  CoulombStep(const feti::DualProblem& dual, double coefficient, const std::string& algorithm, double tolerance)
+      : CoulombStep(dual, dual.hessian(), coefficient, algorithm, tolerance)
   {
   }
   // By all ways that there are.
@@ -62,7 +115,7 @@ struct CoulombStep {
   {
     std::optional<qp::Solution> start;
     solver->begin(*right, problem.radii(slip_bounds(problem, laws, nullptr)), start, goal, {});
-    return solve_coulomb({problem, laws, omega, *right, goal, {goal.residual, 200}, start, start}, {*solver, hessian, budget}, {},
+    return solve_coulomb({problem, laws, omega, *right, goal, options, start, start}, {*solver, hessian, budget}, {},
                          [this](int number, double, const qp::Progress& progress) { watch(number, progress); })
         .found;
   }
@@ -70,12 +123,13 @@ struct CoulombStep {
   const feti::DualProblem& problem;
   std::vector<Law> laws;
   std::unique_ptr<qp::ActiveSetPreconditioner> preconditioner = problem.system().make_preconditioner();
-  qp::Hessian hessian{problem.hessian(), 0};
+  qp::Hessian hessian;
   qp::Budget budget;
   qp::FeasibleSet omega;
   std::unique_ptr<qp::Solver> solver;
   std::shared_ptr<const qp::RightHandSide> right;
   qp::Goal goal;
+  Options options;
   std::function<void(int step, const qp::Progress& progress)> watch = [](int, const qp::Progress&) {};
 };
 

@@ -10,6 +10,7 @@
 #include "qp/condensed_newton.hpp"
 #include "qp/norm.hpp"
 #include "random_programme.hpp"
+#include "testing/rough_operator.hpp"
 
 namespace mortise::qp {
 namespace {
@@ -301,30 +302,6 @@ TEST(Solvers, SmalseTakesOverWhereFaceNewtonCrawls)
     EXPECT_LT(kkt(solution, programme.problem), 1e-8);  // what was reached stays
   }
 }
-
-// Products that are off by so much of their size, each time otherwise, until they are exact.
-class RoughOperator : public Operator {
- public:
-  explicit RoughOperator(const Operator& a, double off) : a_(a), off_(off) {}
-  Teuchos::RCP<const Map> getDomainMap() const override { return a_.getDomainMap(); }
-  Teuchos::RCP<const Map> getRangeMap() const override { return a_.getRangeMap(); }
-  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override
-  {
-    a_.apply(x, y, mode, alpha, beta);
-    if (exact) return;
-    MultiVector noise(y.getMap(), 1);
-    auto values = view(*noise.getVectorNonConst(0));
-    for (auto& value : values) value = normal_(random_);
-    y.update(off_ * y.getVector(0)->norm2() / noise.getVector(0)->norm2(), noise, 1);
-  }
-  bool exact = false;
-
- private:
-  const Operator& a_;
-  double off_;
-  mutable std::mt19937 random_{11};
-  mutable std::normal_distribution<double> normal_;
-};
 
 // Face Newton finds nothing better than rough products allow; once they are exact, SMALSE-M goes on to the solution.
 TEST(Solvers, SmalseConvergesAfterItHasTakenOver)
