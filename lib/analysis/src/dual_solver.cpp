@@ -21,6 +21,7 @@ struct DualSolver::Step {
   std::optional<qp::Solution> start;  // `before`, or what the algorithm knows better
   qp::Goal goal;
   const Observer& watch;
+  qp::Foreknown known = {};  // of the algorithm
 };
 
 DualSolver::DualSolver(std::shared_ptr<const feti::DualSystem> system, std::vector<friction::Law> laws,
@@ -55,7 +56,8 @@ qp::Goal DualSolver::goal(const feti::DualProblem& problem, const qp::Goal& accu
 }
 
 feti::DualSolution DualSolver::solve(const feti::DualProblem& problem, const std::optional<qp::Solution>& before,
-                                     const qp::Goal& accuracy, const Observer& observer, std::optional<qp::Patience> patience)
+                                     const qp::Goal& accuracy, const Observer& observer, std::optional<qp::Patience> patience,
+                                     const qp::Solution* suggested)
 {
   if (&problem.system() != system_.get()) throw std::logic_error("a problem of another system than the solver's");
   const int spent = hessian_.count();
@@ -70,7 +72,8 @@ feti::DualSolution DualSolver::solve(const feti::DualProblem& problem, const std
   };
   Step step{problem, before, patience, problem.driven_right_hand_side(hessian_), {}, before, goal(problem, accuracy), watch};
   step.radii = problem.radii(friction::slip_bounds(problem, laws_, nullptr));
-  algorithm_->begin(*step.right, step.radii, step.start, step.goal, [&](const qp::Progress& p) { watch(0, 1, p); });
+  step.known = algorithm_->begin(
+      *step.right, step.radii, step.start, step.goal, [&](const qp::Progress& p) { watch(0, 1, p); }, suggested);
   auto result = friction::any_coulomb(laws_) ? solve_coulomb(step) : solve_tresca(step);
   result.gave_up = patience && !result.converged && budget_.left();
   if (!result.converged && hessian_.exhausted()) result.limit = budget_.reason();
@@ -85,8 +88,8 @@ feti::DualSolution DualSolver::solve(const feti::DualProblem& problem, const std
 // Slip bounds are given, or there are none.
 feti::DualSolution DualSolver::solve_tresca(Step& step)
 {
-  auto found =
-      algorithm_->solve(*step.right, step.radii, step.start, step.goal, [&](const qp::Progress& p) { step.watch(1, 1, p); });
+  auto found = algorithm_->solve(
+      *step.right, step.radii, step.start, step.goal, [&](const qp::Progress& p) { step.watch(1, 1, p); }, &step.known);
   if (!found.feasible) feti::nothing_found(step.problem, omega_.with_radii(step.radii), found.nu, found.empty);
   feti::DualSolution result{std::move(found)};
   result.converged = result.solution.converged;
@@ -100,9 +103,10 @@ feti::DualSolution DualSolver::solve_tresca(Step& step)
 feti::DualSolution DualSolver::solve_coulomb(Step& step)
 {
   const bool persistent = !step.patience;
-  auto [result, radii] = friction::solve_coulomb(
-      {step.problem, laws_, omega_, *step.right, step.goal, loop_, step.before, step.start}, {*algorithm_, hessian_, budget_},
-      {.fixed_point = persistent || from_direct_, .cautiously = persistent}, step.watch);
+  auto [result, radii] =
+      friction::solve_coulomb({step.problem, laws_, omega_, *step.right, step.goal, loop_, step.before, step.start},
+                              {*algorithm_, hessian_, budget_, &step.known},
+                              {.fixed_point = persistent || from_direct_, .cautiously = persistent}, step.watch);
   step.radii = std::move(radii);
   return std::move(result);
 }

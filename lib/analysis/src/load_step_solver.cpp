@@ -296,9 +296,11 @@ StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<Step
     progress.applications += before_;
     observer(step, change, progress);
   };
-  if (begun.first && approach_.contact) solver.suggest(approach_.contact->states_for(problem, context_.comm));
+  std::optional<qp::Solution> states;
+  if (begun.first && approach_.contact) states = approach_.contact->states_for(problem, context_.comm);
   feti::Displacements displacements(problem, solver.product());
-  auto found = solver.solve(problem, begun.start, goal(begun, displacements), count_on, begun.patience);
+  auto found =
+      solver.solve(problem, begun.start, goal(begun, displacements), count_on, begun.patience, states ? &*states : nullptr);
   if (found.gave_up) return end(std::move(begun), std::move(found), {});
   if (approach_.kind == Approach::Kind::direct_instead)
     begun.patience.reset();  // what it has solved is not thrown away for a later state

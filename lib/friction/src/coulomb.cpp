@@ -56,7 +56,7 @@ bool CoulombSearch::obeys_law(qp::Solution& found, const std::vector<double>& ra
 void CoulombSearch::follow_law()
 {
   const qp::SlipLaw law = slip_law(false);
-  const auto solve = [&] { return means_.algorithm.solve(problem_.right, law, solution_, problem_.goal, watch_); };
+  const auto solve = [&] { return means_.algorithm.solve(problem_.right, law, solution_, problem_.goal, watch_, means_.known); };
   step_ = 1;
   auto found = solve();
   if (found && found->slides) {
@@ -81,7 +81,7 @@ void CoulombSearch::follow_cautiously()
 {
   if (converged_ || !means_.budget.left()) return;
   means_.budget.change_algorithm();
-  auto found = means_.algorithm.solve(problem_.right, slip_law(true), problem_.before, problem_.goal, watch_);
+  auto found = means_.algorithm.solve(problem_.right, slip_law(true), problem_.before, problem_.goal, watch_, means_.known);
   if (!found) return;
   count(*found);
   if (!found->feasible) return;

@@ -30,7 +30,7 @@ double to_come(const std::optional<double>& response)
 bool CoulombSearch::solve_tresca(const qp::Goal& goal)
 {
   at_work_ = radii_;
-  auto next = means_.algorithm.solve(problem_.right, radii_, solution_, goal, watch_);
+  auto next = means_.algorithm.solve(problem_.right, radii_, solution_, goal, watch_, means_.known);
   if (!next.feasible) {
     escape_ = next.nu;
     proven_ = next.empty;

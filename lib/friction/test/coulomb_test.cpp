@@ -70,11 +70,11 @@ class TrescaAlone : public qp::Solver {
   TrescaAlone(std::unique_ptr<qp::Solver> solver, std::vector<Asked>& asked) : solver_(std::move(solver)), asked_(asked) {}
   using qp::Solver::solve;
   qp::Solution solve(const qp::RightHandSide& right, std::span<const double> radii, const std::optional<qp::Solution>& start,
-                     const qp::Goal& goal, const qp::Observer& observer) override
+                     const qp::Goal& goal, const qp::Observer& observer, qp::Foreknown* known) override
   {
     auto exact = goal;
     exact.residual = 1e-11;
-    auto solution = solver_->solve(right, radii, start, exact, observer);
+    auto solution = solver_->solve(right, radii, start, exact, observer, known);
     asked_.push_back({{radii.begin(), radii.end()}, solution.feasible});
     return solution;
   }

@@ -114,8 +114,8 @@ struct CoulombStep {
   feti::DualSolution solve()
   {
     std::optional<qp::Solution> start;
-    solver->begin(*right, problem.radii(slip_bounds(problem, laws, nullptr)), start, goal, {});
-    return solve_coulomb({problem, laws, omega, *right, goal, options, start, start}, {*solver, hessian, budget}, {},
+    auto known = solver->begin(*right, problem.radii(slip_bounds(problem, laws, nullptr)), start, goal, {});
+    return solve_coulomb({problem, laws, omega, *right, goal, options, start, start}, {*solver, hessian, budget, &known}, {},
                          [this](int number, double, const qp::Progress& progress) { watch(number, progress); })
         .found;
   }

@@ -16,14 +16,15 @@ class FaceSolver : public Solver {
   {
   }
 
-  void begin(const RightHandSide& /*right*/, std::span<const double> /*radii*/, std::optional<Solution>& /*start*/,
-             Goal& /*goal*/, const Observer& /*observer*/) override
+  Foreknown begin(const RightHandSide& /*right*/, std::span<const double> /*radii*/, std::optional<Solution>& /*start*/,
+                  Goal& /*goal*/, const Observer& /*observer*/, const Solution* /*suggested*/) override
   {
     steadier_ = false;
+    return {};
   }
 
   Solution solve(const RightHandSide& right, std::span<const double> radii, const std::optional<Solution>& start,
-                 const Goal& goal, const Observer& observer) override
+                 const Goal& goal, const Observer& observer, Foreknown* /*known*/) override
   {
     const FeasibleSet set = programme_.set.with_radii(radii);
     const Problem problem(programme_, right, set);
@@ -40,7 +41,7 @@ class FaceSolver : public Solver {
   }
 
   std::optional<Solution> solve(const RightHandSide& right, const SlipLaw& law, const std::optional<Solution>& start,
-                                const Goal& goal, const Observer& observer) override
+                                const Goal& goal, const Observer& observer, Foreknown* /*known*/) override
   {
     if (!start) return newton_.solve(right, law.radii(nullptr), &law, start, goal, observer);
     Solution found = newton_.solve(right, law.radii(&start->x), &law, start, goal, observer);

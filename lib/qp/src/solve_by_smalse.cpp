@@ -17,7 +17,7 @@ class SmalseSolver : public Solver {
   }
 
   Solution solve(const RightHandSide& right, std::span<const double> radii, const std::optional<Solution>& start,
-                 const Goal& goal, const Observer& observer) override
+                 const Goal& goal, const Observer& observer, Foreknown* /*known*/) override
   {
     const FeasibleSet set = programme_.set.with_radii(radii);
     return smalse_to_goal({programme_, right, set}, start, goal, preconditioner_, observer);

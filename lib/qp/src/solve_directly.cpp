@@ -30,105 +30,114 @@ class DirectSolver : public Solver {
   {
   }
 
-  void suggest(Solution states) override { suggested_ = std::move(states); }
-  void begin(const RightHandSide& right, std::span<const double> radii, std::optional<Solution>& start, Goal& goal,
-             const Observer& observer) override
+  Foreknown begin(const RightHandSide& right, std::span<const double> radii, std::optional<Solution>& start, Goal& goal,
+                  const Observer& observer, const Solution* suggested) override
   {
     if (observer) observer({"direct", 0, programme_.hessian.count()});
     const FeasibleSet set = programme_.set.with_radii(radii);
     const Problem problem(programme_, right, set);
-    sliding_.reset();
-    accepted_.reset();
-    found_.reset();
-    auto found = solve_with_matrices(problem, start, goal);
-    faces_->begin(right, radii, start, goal, observer);
+    auto [found, accepted] = solve_with_matrices(problem, start, suggested, goal);
+    faces_->begin(right, radii, start, goal, observer, nullptr);
+    Foreknown known;
     if (found.slides) {
-      sliding_.emplace(found.x, found.x, found.nu);
-      sliding_->feasible = false;
-      sliding_->slides = true;
-      sliding_->radii = set.radii();
+      known.answer.emplace(found.x, found.x, found.nu);
+      known.answer->feasible = false;
+      known.answer->slides = true;
+      known.answer->radii = set.radii();
     }
-    if (!found.converged) return;  // a guess of states that are none leads faces astray
-    if (!accepted_) improve(problem, found, goal);
+    if (!found.converged) return known;  // a guess of states that are none leads faces astray
+    if (!accepted) accepted = improve(problem, found, goal);
     if (goal.allowed_error) goal.exact = rounding_of_direct;
-    if (found.reaction) found_ = found;
+    if (found.reaction) known.by_matrices = found;
     Solution solution(found.x, found.x, found.nu);
     if (start) solution.hessian_norm = start->hessian_norm;
-    if (accepted_) accepted_->hessian_norm = solution.hessian_norm;
+    if (accepted) {
+      accepted->hessian_norm = solution.hessian_norm;
+      known.answer = std::move(accepted);
+    }
     start = std::move(solution);
+    return known;
   }
   Solution solve(const RightHandSide& right, std::span<const double> radii, const std::optional<Solution>& start,
-                 const Goal& goal, const Observer& observer) override
+                 const Goal& goal, const Observer& observer, Foreknown* known) override
   {
-    if (accepted_) {
-      accepted_->radii.assign(radii.begin(), radii.end());
-      return *std::exchange(accepted_, {});
+    if (known && known->answer && !known->answer->slides) {
+      auto answer = *std::exchange(known->answer, {});
+      answer.radii.assign(radii.begin(), radii.end());
+      return answer;
     }
-    auto solution = faces_->solve(right, radii, start, goal, observer);
-    if (!solution.converged) take_judged(right, radii, goal, solution);
+    auto solution = faces_->solve(right, radii, start, goal, observer, nullptr);
+    if (!solution.converged && known && known->by_matrices) take_judged(right, radii, goal, *known->by_matrices, solution);
     return solution;
   }
   std::optional<Solution> solve(const RightHandSide& right, const SlipLaw& law, const std::optional<Solution>& start,
-                                const Goal& goal, const Observer& observer) override
+                                const Goal& goal, const Observer& observer, Foreknown* known) override
   {
-    if (sliding_) return std::exchange(sliding_, {});
-    if (accepted_) {
-      accepted_->radii = law.radii(&accepted_->x);
-      return std::exchange(accepted_, {});
+    if (known && known->answer) {
+      auto answer = std::exchange(known->answer, {});
+      if (!answer->slides) answer->radii = law.radii(&answer->x);
+      return answer;
     }
-    auto solution = faces_->solve(right, law, start, goal, observer);
-    if (solution && !solution->converged && found_) take_judged(right, law.radii(&found_->x), goal, *solution);
+    auto solution = faces_->solve(right, law, start, goal, observer, nullptr);
+    if (solution && !solution->converged && known && known->by_matrices)
+      take_judged(right, law.radii(&known->by_matrices->x), goal, *known->by_matrices, *solution);
     return solution;
   }
   ActiveSetPreconditioner* preconditioner() override { return matrices_.inverse.get(); }
 
  private:
+  struct ByMatrices {
+    ExplicitProgramme::Result found;
+    std::optional<Solution> accepted = {};  // the same, if it is judged and will do
+  };
+
   // From the states of the problem before or from those that are suggested, if there are any; else from anywhere with the
   // matrices that served last, or the other ones, if there are any, where these do not tell the states of all constraints.
-  ExplicitProgramme::Result solve_with_matrices(const Problem& problem, const std::optional<Solution>& before, const Goal& goal)
+  ByMatrices solve_with_matrices(const Problem& problem, const std::optional<Solution>& before, const Solution* suggested,
+                                 const Goal& goal)
   {
     if (before && matrices_.go_on) {
       Vector reaction(before->gradient, Teuchos::Copy);
       problem.equality.add_transpose(1, before->nu, reaction);
       const auto& right = problem.right;
       auto next = matrices_.go_on(right, right.b, right.e, problem.set, {before->x, before->nu, true, reaction});
-      if (next.converged && next.settled) return next;
+      if (next.converged && next.settled) return {next};
     }
-    if (const auto states = std::exchange(suggested_, {}); states && matrices_.go_on) {
+    if (suggested && matrices_.go_on) {
       const auto& right = problem.right;
-      auto next = matrices_.go_on(right, right.b, right.e, problem.set, {states->x, states->nu, false, states->gradient});
-      if (next.converged && next.settled) return next;
+      auto next =
+          matrices_.go_on(right, right.b, right.e, problem.set, {suggested->x, suggested->nu, false, suggested->gradient});
+      if (next.converged && next.settled) return {next};
     }
     auto found = matrices_.solve(problem.right, problem.set);
-    if ((found.converged && found.settled) || found.slides) return found;
-    if (found.converged && matrices_.rough_products) {
-      improve(problem, found, goal);
-      if (accepted_) return found;
-    }
-    if (found.converged && matrices_.instead_of_none) return found;
+    if ((found.converged && found.settled) || found.slides) return {found};
+    if (found.converged && matrices_.rough_products)
+      if (auto accepted = improve(problem, found, goal)) return {found, std::move(accepted)};
+    if (found.converged && matrices_.instead_of_none) return {found};
     if (matrices_.instead) others_ = std::exchange(matrices_.instead, {})();
-    if (!others_) return found;
+    if (!others_) return {found};
     auto next = others_->solve(problem.right, problem.set);
-    if (!next.converged) return found;
-    if (found.converged && !next.settled) return found;
+    if (!next.converged) return {found};
+    if (found.converged && !next.settled) return {found};
     std::swap(matrices_, *others_);
     faces_ = face_newton_with(matrices_.inverse.get(), programme_, means_);
-    return next;
+    return {next};
   }
 
-  // Takes away what the matrices differ by, and accepts the solution if it can be judged and will do.
-  void improve(const Problem& problem, ExplicitProgramme::Result& found, const Goal& goal)
+  // Takes away what the matrices differ by. Returns the solution if it can be judged and will do.
+  std::optional<Solution> improve(const Problem& problem, ExplicitProgramme::Result& found, const Goal& goal)
   {
     if (matrices_.differs) correct(problem, found, goal);
-    if (matrices_.rough_products && goal.allowed_error) accepted_ = judged(problem, found, goal);
+    if (!matrices_.rough_products || !goal.allowed_error) return {};
+    return judged(problem, found, goal);
   }
 
   // Where products are too rough to show what the matrices found, it is judged in place of `solution`.
-  void take_judged(const RightHandSide& right, std::span<const double> radii, const Goal& goal, Solution& solution)
+  void take_judged(const RightHandSide& right, std::span<const double> radii, const Goal& goal,
+                   const ExplicitProgramme::Result& found, Solution& solution)
   {
-    if (!found_) return;
     const FeasibleSet set = programme_.set.with_radii(radii);
-    auto other = judged(Problem(programme_, right, set), *found_, goal);
+    auto other = judged(Problem(programme_, right, set), found, goal);
     if (!other) return;
     other->hessian_norm = solution.hessian_norm;
     other->radii.assign(radii.begin(), radii.end());
@@ -232,10 +241,7 @@ class DirectSolver : public Solver {
   Programme programme_;
   Means means_;
   ExplicitProgramme matrices_;
-  std::optional<ExplicitProgramme> others_;
-  std::optional<Solution> suggested_;               // looked at once
-  std::optional<Solution> sliding_, accepted_;      // told once
-  std::optional<ExplicitProgramme::Result> found_;  // by the matrices, if it can be judged
+  std::optional<ExplicitProgramme> others_;  // made where they were needed
   std::unique_ptr<Solver> faces_;
 };
 

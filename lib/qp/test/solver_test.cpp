@@ -228,6 +228,142 @@ TEST(Solvers, OtherMatricesFollowThoseThatFail)
   EXPECT_EQ(solve({false, true}, {false, true}), 0);  // no start
 }
 
+// States that another way suggests come first where there is no solution before.
+TEST(Solvers, ADirectSolutionBeginsWithTheStatesThatAreSuggested)
+{
+  for (const bool lead_on : {true, false}) {
+    Setting setting;
+    const auto& right = setting.programme.right;
+    int anew = 0, on = 0;
+    const DenseProgramme suggests(setting.programme);
+    const auto states = suggests.solve(right);
+    setting.means.make_explicit = [&] {
+      const auto matrices = std::make_shared<DenseProgramme>(setting.programme);
+      ExplicitProgramme programme{
+          matrices, [&anew, matrices](const RightHandSide& given, const FeasibleSet&) { return ++anew, matrices->solve(given); }};
+      programme.go_on = [&, matrices](const RightHandSide&, const Vector& b, const Eigen::VectorXd& e, const FeasibleSet&,
+                                      const ExplicitProgramme::Result& near) {
+        ++on;
+        EXPECT_FALSE(near.converged);
+        EXPECT_EQ(gathered(near.x, world()), gathered(states.x, world()));
+        EXPECT_EQ(gathered(*near.reaction, world()), gathered(*states.reaction, world()));
+        auto found = matrices->solve(b, e, nullptr);
+        found.converged = lead_on;
+        return found;
+      };
+      return programme;
+    };
+    const auto solver = setting.make(solver_kind("direct"));
+    Goal goal{1e-10};
+    std::optional<Solution> start;
+    const Solution suggested(states.x, *states.reaction, states.nu);
+    solver->begin(right, setting.programme.set.radii(), start, goal, {}, &suggested);
+    EXPECT_EQ(on, 1);
+    EXPECT_EQ(anew, lead_on ? 0 : 1);
+    ASSERT_TRUE(start);
+    EXPECT_EQ(gathered(start->x, world()), gathered(states.x, world()));
+  }
+}
+
+// Matrices that are better than products have their solution judged by its defect: one product, and the next solve is done.
+TEST(Solvers, AJudgedSolutionIsTheAnswerToOneSolve)
+{
+  for (const bool by_law : {false, true}) {
+    Setting setting;
+    auto& programme = setting.programme;
+    setting.means.make_explicit = [&] {
+      const auto matrices = std::make_shared<DenseProgramme>(programme);
+      ExplicitProgramme result{matrices,
+                               [matrices](const RightHandSide& right, const FeasibleSet&) { return matrices->solve(right); }};
+      result.rough_products = true;
+      return result;
+    };
+    const auto solver = setting.make(solver_kind("direct"));
+    const auto radii = programme.set.radii();
+    const SlipLaw law{[&radii](const Vector*) { return radii; }};
+    Goal goal{1e-8};
+    goal.allowed_error = [](const Vector&, const Eigen::VectorXd&) { return 1e-6; };
+    goal.energy_norm = [&](const Vector& x, const Eigen::VectorXd&) { return programme.distance(x, 0 * gathered(x, world())); };
+    std::optional<Solution> start;
+    Foreknown known = solver->begin(programme.right, radii, start, goal, {});
+    EXPECT_EQ(programme.hessian.count(), 1);
+    ASSERT_TRUE(known.answer);
+    const auto solve = [&] {
+      return by_law ? *solver->solve(programme.right, law, start, goal, {}, &known)
+                    : solver->solve(programme.right, radii, start, goal, {}, &known);
+    };
+    const Eigen::VectorXd exact = programme.reference();
+    for (const bool first : {true, false}) {
+      const Solution solution = solve();
+      EXPECT_EQ(programme.hessian.count() == 1, first);
+      EXPECT_FALSE(known.answer);
+      EXPECT_TRUE(solution.converged);
+      EXPECT_EQ(solution.radii, radii);
+      EXPECT_LT(programme.distance(solution.x, exact), 1e-6);
+    }
+  }
+}
+
+// Where products are too rough for faces to settle contact, what the matrices found is judged in place of their last point.
+TEST(Solvers, ASolutionByMatricesIsJudgedWhereFacesDoNotConverge)
+{
+  for (const bool pass_on : {false, true}) {
+    Setting setting;
+    auto& programme = setting.programme;
+    const RoughOperator rough(programme.a, 1e-5);
+    Hessian hessian(rough, 4000);
+    Budget budget(hessian, {}, false);
+    budget.start(Patience(390));  // SMALSE-M is not to go on
+    const auto solver =
+        solver_kind("direct").make({hessian, programme.equality, programme.set}, {budget, nullptr, setting.means.make_explicit});
+    const auto radii = programme.set.radii();
+    Goal goal{1e-8};
+    goal.allowed_error = [](const Vector&, const Eigen::VectorXd&) { return 1e-3; };
+    goal.energy_norm = [&](const Vector& x, const Eigen::VectorXd&) { return programme.distance(x, 0 * gathered(x, world())); };
+    goal.contact_converged = [](const Vector&, const Vector&, const Vector&) { return false; };
+    std::optional<Solution> start;
+    Foreknown known = solver->begin(programme.right, radii, start, goal, {});
+    ASSERT_TRUE(known.by_matrices);
+    EXPECT_FALSE(known.answer);
+    const auto solution = solver->solve(programme.right, radii, start, goal, {}, pass_on ? &known : nullptr);
+    EXPECT_EQ(solution.converged, pass_on);
+    if (pass_on) EXPECT_EQ(gathered(solution.x, world()), gathered(known.by_matrices->x, world()));
+  }
+}
+
+// That bodies slide on for ever is told to who follows a law, and once; with radii that are given there is a solution.
+TEST(Solvers, ThatBodiesSlideIsToldToALawOnce)
+{
+  Setting setting;
+  auto& programme = setting.programme;
+  setting.means.make_explicit = [&] {
+    const auto matrices = std::make_shared<DenseProgramme>(programme);
+    return ExplicitProgramme{matrices, [matrices](const RightHandSide& right, const FeasibleSet&) {
+                               auto found = matrices->solve(right);
+                               found.converged = false;
+                               found.slides = true;
+                               return found;
+                             }};
+  };
+  const auto solver = setting.make(solver_kind("direct"));
+  const auto radii = programme.set.radii();
+  const SlipLaw law{[&radii](const Vector*) { return radii; }};
+  Goal goal{1e-8};
+  std::optional<Solution> start;
+  Foreknown known = solver->begin(programme.right, radii, start, goal, {});
+  EXPECT_FALSE(start);
+  EXPECT_TRUE(solver->solve(programme.right, radii, start, goal, {}, &known).converged);
+  const auto told = solver->solve(programme.right, law, start, goal, {}, &known);
+  ASSERT_TRUE(told);
+  EXPECT_TRUE(told->slides);
+  EXPECT_FALSE(told->feasible);
+  EXPECT_EQ(told->radii, radii);
+  const auto next = solver->solve(programme.right, law, start, goal, {}, &known);
+  ASSERT_TRUE(next);
+  EXPECT_FALSE(next->slides);
+  EXPECT_TRUE(next->feasible);
+}
+
 // Coulomb's law with the coefficients of a set as SlipLaw; radii are infinite to begin with.
 SlipLaw coulomb(const FeasibleSet& set)
 {

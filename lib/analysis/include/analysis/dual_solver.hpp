@@ -32,12 +32,12 @@ class DualSolver {
 
   /// Solves a problem of system() for its multipliers, from `before`, the solution of the step before, if there is one: to the
   /// tolerance of the solver's options or, where that is auto, to what errors are compared with, `accuracy`. `patience`: when it
-  /// gives up in favour of another approach; with one, it also gives up where its algorithm makes no more progress. Throws
+  /// gives up in favour of another approach; with one, it also gives up where its algorithm makes no more progress.
+  /// `suggested`: forces and a gradient whose states of constraints it may begin with, see qp::Solver; or null. Throws
   /// Error(no_equilibrium) that names the body that moves and how. Collective.
   feti::DualSolution solve(const feti::DualProblem& problem, const std::optional<qp::Solution>& before, const qp::Goal& accuracy,
-                           const Observer& observer, std::optional<qp::Patience> patience = {});
-  /// The next solve may begin with states of constraints that these forces and this gradient have, see qp::Solver.
-  void suggest(qp::Solution states) { algorithm_->suggest(std::move(states)); }
+                           const Observer& observer, std::optional<qp::Patience> patience = {},
+                           const qp::Solution* suggested = nullptr);
   /// Products with F of all solves, also of one that threw.
   int applications() const { return hessian_.count(); }
   const feti::DualSystem& system() const { return *system_; }

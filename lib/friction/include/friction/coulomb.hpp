@@ -38,6 +38,7 @@ struct CoulombMeans {
   qp::Solver& algorithm;  ///< of the programme with Omega
   qp::Hessian& hessian;
   qp::Budget& budget;
+  qp::Foreknown* known = nullptr;  ///< what the algorithm found when it began, see qp::Solver::begin()
 };
 
 /// What is tried after bounds and forces together did not converge.

@@ -55,6 +55,16 @@ struct Means {
   std::function<ExplicitProgramme()> make_explicit = {};
 };
 
+/// What a solver knows of solves that belong together before it goes on with them, for whoever drives it to pass on: nothing, but
+/// where matrices were used.
+struct Foreknown {
+  /// The next solve's, which takes it: one that is judged, or forces by which bodies slide on (Solution::slides), which a slip
+  /// law alone asks for.
+  std::optional<Solution> answer = {};
+  /// A solution by matrices that can be judged where a solve does not converge.
+  std::optional<ExplicitProgramme::Result> by_matrices = {};
+};
+
 /// Solves a sequence of problems of one programme, one after the other; recycled directions stay. Refers to the programme's parts
 /// and its means, which outlive it. A solution tells why it ended: converged; not feasible, proven or not; else the products ran
 /// out, or nothing became better. `radii`: one for each disc of Programme::set.
@@ -62,23 +72,23 @@ class Solver {
  public:
   virtual ~Solver() = default;
 
-  /// What another way that gave up knows: x and the gradient by which constraints have their states. A solver that has use for
-  /// such looks at them in the next begin().
-  virtual void suggest(Solution /*states*/) {}
   /// Before the first of several solves that belong together (a load step), the last of them to `goal`: if the solver knows a
-  /// better start than `start` it replaces that, and tells the goal how exact it is. Collective.
-  virtual void begin(const RightHandSide& /*right*/, std::span<const double> /*radii*/, std::optional<Solution>& /*start*/,
-                     Goal& /*goal*/, const Observer& /*observer*/)
+  /// better start than `start` it replaces that, and tells the goal how exact it is. `suggested`, which may be null, is what
+  /// another way that gave up knows: x and the gradient by which constraints have their states. Collective.
+  virtual Foreknown begin(const RightHandSide& /*right*/, std::span<const double> /*radii*/, std::optional<Solution>& /*start*/,
+                          Goal& /*goal*/, const Observer& /*observer*/, const Solution* /*suggested*/ = nullptr)
   {
+    return {};
   }
-  /// The solution to `goal` with these radii, from `start`, or from a point of its own choice. Collective.
+  /// The solution to `goal` with these radii, from `start`, or from a point of its own choice. `known`: from begin(), or null.
+  /// Collective.
   virtual Solution solve(const RightHandSide& right, std::span<const double> radii, const std::optional<Solution>& start,
-                         const Goal& goal, const Observer& observer) = 0;
+                         const Goal& goal, const Observer& observer, Foreknown* known = nullptr) = 0;
   /// The solution that fulfils the law, with radii found together with it: Solution::radii. Nothing where the solver needs radii
   /// that are given. Collective.
   virtual std::optional<Solution> solve(const RightHandSide& /*right*/, const SlipLaw& /*law*/,
                                         const std::optional<Solution>& /*start*/, const Goal& /*goal*/,
-                                        const Observer& /*observer*/)
+                                        const Observer& /*observer*/, Foreknown* /*known*/ = nullptr)
   {
     return {};
   }
