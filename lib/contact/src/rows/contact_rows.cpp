@@ -96,11 +96,10 @@ class ContactRows {
   // Of a bond both of whose sides supports hold, each by itself.
   SharesBesideSupports shares_beside_supports()
   {
-    const bool alone = options().obstacle || options().cyclic || !s_.discretization->others_take_over();
-    if (!bonded() || alone || s_.supports.empty() || s_.primary_supports.empty()) return {};
+    const bool alone = options().obstacle || options().cyclic || s_.supports.empty() || s_.primary_supports.empty();
+    if (!bonded() || alone || !s_.discretization->others_take_over()) return {};
     const auto held_opposite = [&](std::size_t p, const Point& axis) {
-      const Opposite& opposite = s_.rays.meet(p);
-      return !matches_[p] && std::isfinite(opposite.gap) && opposite_supports_.prescribe(opposite, axis);
+      return !matches_[p] && s_.rays.meets(p) && opposite_supports_.prescribe(s_.rays.meet(p), axis);
     };
     return {s_.secondary, s_.nodes, s_.faces, s_.supports, chosen_.kept, held_opposite, s_.dimension};
   }
@@ -278,8 +277,7 @@ class ContactRows {
     const auto others = other_tangents(node.normal, node.tangents, s_.dimension);
     for (const auto& tangent : writer_.across_axis(here, node.normal, others)) {
       const auto held = writer_.held_on_both_sides(terms_, node.normal, tangent);
-      if (held && held->moves) node.tangents.push_back(held->axis);
-      if (held && !held->moves) prescribed.push_back(held->axis);
+      if (held) held->moves ? node.tangents.push_back(held->axis) : prescribed.push_back(held->axis);
     }
     return prescribed;
   }
