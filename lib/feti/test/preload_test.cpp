@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "constraint/pretension.hpp"
+#include "feti/sparse_problem.hpp"
 #include "qp/face_newton.hpp"
 #include "qp/smalse.hpp"
 #include "testing/blocks.hpp"
@@ -13,12 +14,13 @@ namespace {
 constexpr double young = 1000, force = 50, shortening = force * 5 / young;
 
 struct Column : Blocks {
-  // Held along z at its ends, or at the lower one alone; nothing keeps it from moving sideways.
-  Column(const constraint::Preload& preload, bool both_ends)
+  // Held along z at its ends, or at the lower one alone; nothing keeps it from moving sideways, unless its foot is `clamped`.
+  Column(const constraint::Preload& preload, bool both_ends, bool clamped = false)
       : Blocks({{"lower", {{0, 0, 0}, {1, 1, 2}, {2, 2, 4}, "hex8"}}, {"upper", {{0, 0, 2}, {1, 1, 3}, {2, 2, 6}, "hex8"}}},
                {{"lower", {1, 1, 2}}, {"upper", {1, 1, 3}}}, [](int) { return young; })
   {
     std::vector<constraint::Support> supports{{"lower.zmin", {std::nullopt, std::nullopt, 0.0}}};
+    if (clamped) supports = {{"lower.zmin", {0.0, 0.0, 0.0}}};
     if (both_ends) supports.push_back({"upper.zmax", {std::nullopt, std::nullopt, 0.0}});
     dirichlet_rows(supports);
     join("upper.zmin", "lower.zmax", true);
@@ -86,6 +88,31 @@ TEST_P(Preloads, AShorteningHasItsForce)
   ASSERT_TRUE(solution.converged);
   EXPECT_NEAR(tension(problem, solution.x), force, 1e-8 * force);
   EXPECT_EQ(problem.shortenings(solution.nu)[0], shortening);
+}
+
+// The shortening is a column more of sparse matrices; of another force it goes on from the solution before.
+TEST(Preload, ByAForceHasTheSameSolutionWithSparseMatrices)
+{
+  const Column column({0, "cut", force}, true, true);
+  const auto problem = column.problem();
+  ASSERT_EQ(problem.equality().size(), problem.system().kernel_dimension() + 1);
+  EXPECT_EQ(SparseProblem::turn(problem.system(), false), SparseProblem::Turn::second);  // so few rows
+  const auto expected = solve(problem, "face_newton");
+  ASSERT_TRUE(expected.converged);
+  const SparseProblem sparse(problem.system());
+  const auto right = problem.right_hand_side();
+  const auto found = sparse.solve(*right, problem.set());
+  ASSERT_TRUE(found.converged);
+  const auto difference = [&](const Vector& x, double scale) {
+    const Eigen::VectorXd lacks = problem.forces(x) - scale * problem.forces(expected.x);
+    return std::sqrt(problem.communicator().sum(lacks.squaredNorm()));
+  };
+  EXPECT_LT(difference(found.x, 1), 1e-7 * force);
+  EXPECT_NEAR(problem.shortenings(found.nu)[0], problem.shortenings(expected.nu)[0], 1e-8 * shortening);
+  const auto twice = sparse.go_on(*right, right->b, 2 * right->e, problem.set(), found);
+  ASSERT_TRUE(twice.converged);
+  EXPECT_LT(difference(twice.x, 2), 1e-7 * force);
+  EXPECT_NEAR(problem.shortenings(twice.nu)[0], 2 * problem.shortenings(expected.nu)[0], 1e-8 * shortening);
 }
 
 // The upper half follows the pull and nothing stops it: the bond does not, for it is what is drawn together.

@@ -204,6 +204,40 @@ std::vector<double> felt_of_flats(const feti::DualProblem& problem, const Eigen:
   return result;
 }
 
+// How far a body grows by its turn.
+double growth_of(const BodyMotion& motion)
+{
+  return motion.rigid.rotation.norm() * motion.turning / 2;
+}
+
+// What each row feels of 1/2 omega x (omega x r), contacts the part that felt_of_flats() says.
+// Collective.
+Eigen::VectorXd second_order_felt(const feti::DualProblem& problem, const RigidMotions& motions,
+                                  const std::vector<BodyMotion>& turns, std::span<const contact::Pair> pairs,
+                                  const Eigen::VectorXd& pressing)
+{
+  const Fields second_order = motions.fields([&](std::size_t b, const Point& r) {
+    const Point& omega = turns[b].rigid.rotation;
+    return Point(0.5 * omega.cross(omega.cross(r)));
+  });
+  const Fields first_order = motions.fields(
+      [&](std::size_t b, const Point& r) { return Point(turns[b].rigid.translation + turns[b].rigid.rotation.cross(r)); });
+  std::vector<Point> turn;  // of each contact
+  for (const auto& bodies : bodies_of_contacts(pairs, problem.communicator())) {
+    const auto fastest =
+        std::ranges::max_element(bodies, {}, [&](int b) { return growth_of(turns[static_cast<std::size_t>(b)]); });
+    turn.push_back(fastest == bodies.end() ? Point(Point::Zero()) : turns[static_cast<std::size_t>(*fastest)].rigid.rotation);
+  }
+  double length = 0;
+  for (const auto& frame : motions.frames()) length = std::max(length, frame.radius);
+  const auto part = felt_of_flats(problem, pressing, problem.jumps(first_order), turn, length);
+  Eigen::VectorXd result = problem.jumps(second_order);
+  const auto& contacts = problem.constraints().contacts;
+  for (std::size_t i = 0; i < contacts.nodes.size(); ++i)
+    if (!contacts.bonded[i]) result[problem.node_rows()[i].normal] *= part[static_cast<std::size_t>(contacts.nodes[i].contact)];
+  return result;
+}
+
 // e + row . v of each row for the rigid motions v that make the sum of its squares, times `weight`, least: by conjugate gradients
 // on the normal equations. Collective.
 Eigen::VectorXd least_felt(const feti::DualProblem& problem, const RigidMotions& motions, const Eigen::VectorXd& weight,
@@ -248,29 +282,13 @@ LargeTurn large_turn(const feti::DualProblem& problem, const Vector& lambda, con
   const double all = comm.sum(pressing.sum());
   if (!(all > 0)) return {};
   const auto turns = rigid_motions(decomposition, kinematics, displacement, comm);
-  const auto growth = [&](std::size_t b) { return turns[b].rigid.rotation.norm() * turns[b].turning / 2; };
+  const auto growth = [&](std::size_t b) { return growth_of(turns[b]); };
   double most = 0, total = 0;
   for (std::size_t b = 0; b < turns.size(); ++b) most = std::max(most, growth(b)), total += strain_energy[b];
   if (!(farthest * most * all > least * much * total)) return {};
 
   const RigidMotions motions(decomposition, kinematics, comm);
-  const Fields second_order = motions.fields([&](std::size_t b, const Point& r) {
-    const Point& omega = turns[b].rigid.rotation;
-    return Point(0.5 * omega.cross(omega.cross(r)));
-  });
-  const Fields first_order = motions.fields(
-      [&](std::size_t b, const Point& r) { return Point(turns[b].rigid.translation + turns[b].rigid.rotation.cross(r)); });
-  std::vector<Point> turn;  // of each contact
-  for (const auto& bodies : bodies_of_contacts(pairs, comm)) {
-    const auto fastest = std::ranges::max_element(bodies, {}, [&](int b) { return growth(static_cast<std::size_t>(b)); });
-    turn.push_back(fastest == bodies.end() ? Point(Point::Zero()) : turns[static_cast<std::size_t>(*fastest)].rigid.rotation);
-  }
-  double length = 0;
-  for (const auto& frame : motions.frames()) length = std::max(length, frame.radius);
-  const auto part = felt_of_flats(problem, pressing, problem.jumps(first_order), turn, length);
-  Eigen::VectorXd whole = problem.jumps(second_order);
-  for (std::size_t i = 0; i < contacts.nodes.size(); ++i)
-    if (!contacts.bonded[i]) whole[problem.node_rows()[i].normal] *= part[static_cast<std::size_t>(contacts.nodes[i].contact)];
+  const Eigen::VectorXd whole = second_order_felt(problem, motions, turns, pairs, pressing);
   const Eigen::VectorXd lacks = least_felt(problem, motions, firmness(problem, pressing, states), whole);
   const Eigen::VectorXd work = pressing.cwiseProduct(lacks), size = work.cwiseAbs();
   const auto of_bodies = motions.sizes(problem.jump().apply_transpose(problem.multipliers(size)));
