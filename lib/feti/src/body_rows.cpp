@@ -6,54 +6,28 @@
 #include <numeric>
 
 #include "base/dense.hpp"
-#include "row_scaling.hpp"
 #include "unit_motions.hpp"
 
 namespace mortise::feti {
 
-Eigen::VectorXd sample(const RigidMotion& motion, const std::vector<Point>& points, int dimension)
+Bodies loaded_bodies(const partition::Decomposition& decomposition, const Clusters& clusters, fem::Kinematics kinematics,
+                     const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
 {
-  Eigen::VectorXd v(static_cast<Eigen::Index>(points.size()) * dimension);
-  for (std::size_t n = 0; n < points.size(); ++n)
-    v.segment(static_cast<Eigen::Index>(n) * dimension, dimension) = motion.at(points[n]).head(dimension);
-  return v;
-}
-
-Bodies aggregate(const partition::Decomposition& decomposition, const Clusters& clusters, fem::Kinematics kinematics,
-                 const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
-{
-  Bodies bodies;
+  Bodies bodies{rigid_modes(decomposition, clusters, kinematics, comm), {}, {}};
   const int dimension = fem::dimension(kinematics);
-  bodies.kinematics = kinematics;
-  bodies.modes = fem::rigid_motion_count(kinematics);
-  bodies.frames = body_frames(decomposition, comm);
   const auto body_count = static_cast<Eigen::Index>(bodies.frames.size());
-  struct Entry {
-    int row, column;
-    double value;
-  };
-  std::vector<Entry> entries;
   bodies.force = Eigen::VectorXd::Zero(body_count);
   bodies.generalised = Eigen::VectorXd::Zero(body_count * bodies.modes);
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
-    for (int k = 0; k < bodies.modes; ++k) {
-      const auto v =
-          sample(unit_motion(subdomain.body, bodies.frames[subdomain.body], k, kinematics), subdomain.mesh.points, dimension);
-      const Eigen::VectorXd coordinates = clusters.coordinates(s, v);
-      for (int i = 0; i < coordinates.size(); ++i)
-        entries.push_back({clusters.first(s) + i, subdomain.body * bodies.modes + k, coordinates[i]});
-      bodies.generalised[subdomain.body * bodies.modes + k] += load[s].dot(v);
-    }
+    for (int k = 0; k < bodies.modes; ++k)
+      bodies.generalised[subdomain.body * bodies.modes + k] += load[s].dot(
+          sample(unit_motion(subdomain.body, bodies.frames[subdomain.body], k, kinematics), subdomain.mesh.points, dimension));
     for (Eigen::Index n = 0; n < load[s].size() / dimension; ++n)
       bodies.force[subdomain.body] += load[s].segment(n * dimension, dimension).norm();
   }
   comm.sum_in_place({bodies.force.data(), static_cast<std::size_t>(bodies.force.size())});
   comm.sum_in_place({bodies.generalised.data(), static_cast<std::size_t>(bodies.generalised.size())});
-  std::vector<Eigen::Triplet<double>> triplets;
-  for (const auto& entry : comm.all_gather(entries)) triplets.emplace_back(entry.row, entry.column, entry.value);
-  bodies.aggregate.resize(clusters.kernel_dimension(), body_count * bodies.modes);
-  bodies.aggregate.setFromTriplets(triplets.begin(), triplets.end());
   return bodies;
 }
 
@@ -91,9 +65,8 @@ BodyRows body_rows(const JumpOperator& jump, Bodies& bodies, const SparseMatrix&
 {
   const auto& contacts = constraints.contacts;
   const Local first = jump.ranges().dirichlet, count = jump.ranges().extra - first;
-  const Eigen::VectorXd unscale = RowScaling::of(jump).segment(first, count).cwiseInverse();
   BodyRows rows;
-  rows.values = unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.middleCols(first, count)).transpose() * bodies.aggregate);
+  rows.values = rows_of_bodies(jump, g, bodies).topRows(count);
   rows.first_contact = jump.ranges().contacts - first;
   for (std::size_t begin = 0, end = 0; begin < unknowns.size(); begin = end) {
     while (end < unknowns.size() && unknowns[end].group == unknowns[begin].group) ++end;

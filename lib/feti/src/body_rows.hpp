@@ -1,26 +1,22 @@
-// What supports and contacts feel of the rigid motions of whole bodies.
+// What supports and contacts feel of the rigid motions of whole bodies, where unknowns give way, and which of it facets excuse.
 #pragma once
 
-#include "feti/free_motions.hpp"
+#include "feti/rigid_modes.hpp"
 
 namespace mortise::feti {
 
 // Facets excuse the normal rows of contacts alone: what supports, bonds and friction feel of a motion counts this often.
 inline constexpr double support_weight = 1e3;
 
-// Everything body-wise: A maps the amplitudes of the bodies' motions to kernel coordinates of the clusters.
-struct Bodies {
-  fem::Kinematics kinematics;
-  int modes;  // of each body
-  std::vector<BodyFrame> frames;
-  SparseMatrix aggregate;       // A: kernels x (bodies * modes)
+// All bodies and what loads do to their motions.
+struct Bodies : RigidModes {
   Eigen::VectorXd force;        // sum of |nodal forces| of each body
   Eigen::VectorXd generalised;  // work of the loads on each unit motion
 };
 
 // Collective.
-Bodies aggregate(const partition::Decomposition& decomposition, const Clusters& clusters, fem::Kinematics kinematics,
-                 const std::vector<Eigen::VectorXd>& load, const Communicator& comm);
+Bodies loaded_bodies(const partition::Decomposition& decomposition, const Clusters& clusters, fem::Kinematics kinematics,
+                     const std::vector<Eigen::VectorXd>& load, const Communicator& comm);
 
 // The rows of supports and contacts that this rank owns, over the amplitudes of all bodies, in lengths.
 struct BodyRows {
@@ -43,8 +39,5 @@ std::vector<std::vector<int>> units(const BodyRows& rows, const constraint::Cont
 std::vector<FreeMotion> motions_of_unit(const Bodies& bodies, const BodyRows& rows, const constraint::Contacts& contacts,
                                         const std::vector<int>& unit,
                                         std::span<const constraint::SlidingSurface> sliding_surfaces, const Communicator& comm);
-
-// The velocities of a motion at points, one after the other.
-Eigen::VectorXd sample(const RigidMotion& motion, const std::vector<Point>& points, int dimension);
 
 }  // namespace mortise::feti

@@ -93,15 +93,11 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
   const auto& decomposition = system_->decomposition();
   const bool unbonded = std::find(contacts.bonded.begin(), contacts.bonded.end(), false) != contacts.bonded.end();
   if (!comm.any(unbonded)) return nu;
-  const Bodies bodies = aggregate(decomposition, system_->clusters(), system_->subdomains().kinematics, load(), comm);
+  const Bodies bodies = loaded_bodies(decomposition, system_->clusters(), system_->subdomains().kinematics, load(), comm);
   if (bodies.aggregate.cols() > most) return nu;
 
   const Local first = jump().ranges().dirichlet, count = jump().ranges().end - first;
-  const auto kernels = system_->clusters().kernel_dimension();
-  const Eigen::VectorXd unscale = RowScaling::of(jump()).segment(first, count).cwiseInverse();
-  const SparseMatrix g = equality().local().middleCols(first, count);
-  const SparseMatrix rows_of_bodies =
-      unscale.asDiagonal() * SparseMatrix(SparseMatrix(g.transpose()).leftCols(kernels) * bodies.aggregate);
+  const SparseMatrix felt_by_rows = rows_of_bodies(jump(), equality().local(), bodies);
   const Eigen::VectorXd force = forces(lambda), jump = jumps(u);
   Eigen::VectorXd normal_force = Eigen::VectorXd::Zero(count);
   for (const auto& rows : node_rows()) normal_force[rows.normal - first] = std::abs(force[rows.normal]);
@@ -112,8 +108,8 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
   const Eigen::VectorXd now = mean_amplitudes(decomposition, bodies, u, comm);
   // The way back if what turns counts forces as none that travellers do not.
   const auto way_back = [&](const std::vector<bool>& travel) {
-    const Eigen::VectorXd on_lighter = largest_on_bodies(rows_of_bodies, normal_force, travel, comm);
-    FeltMotions felt{rows_of_bodies, Eigen::VectorXd::Ones(count),
+    const Eigen::VectorXd on_lighter = largest_on_bodies(felt_by_rows, normal_force, travel, comm);
+    FeltMotions felt{felt_by_rows, Eigen::VectorXd::Ones(count),
                      Eigen::VectorXd::Constant(count, std::numeric_limits<double>::infinity())};
     for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
       const auto& rows = node_rows()[i];
@@ -132,7 +128,7 @@ Eigen::VectorXd DualProblem::least_motion(const Vector& lambda, const Eigen::Vec
   const auto travel = travellers(change, bodies);
   if (std::ranges::find(travel, true) != travel.end()) change = way_back(travel);
   Eigen::VectorXd result = nu;
-  result.head(kernels) -= bodies.aggregate * change;
+  result.head(bodies.aggregate.rows()) -= bodies.aggregate * change;
   return result;
 }
 

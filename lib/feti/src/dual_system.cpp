@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "body_rows.hpp"
 #include "driven_motions.hpp"
 #include "exactly_free.hpp"
 #include "feti/preconditioner_kind.hpp"
 #include "gauge.hpp"
+#include "unit_motions.hpp"
 
 namespace mortise::feti {
 

@@ -245,9 +245,8 @@ std::optional<std::string> supported_by_facets(const DualProblem& problem, const
   const auto& comm = problem.communicator();
   const auto& contacts = problem.constraints().contacts;
   if (!comm.any(!bounds.empty())) return {};
-  Bodies bodies = aggregate(decomposition, problem.system().clusters(), kinematics, problem.load(), comm);
-  const SparseMatrix g = coarse_rows(problem.jump(), problem.system().clusters(), comm);
-  const BodyRows rows = body_rows(problem.jump(), bodies, g, problem.constraints(),
+  Bodies bodies = loaded_bodies(decomposition, problem.system().clusters(), kinematics, problem.load(), comm);
+  const BodyRows rows = body_rows(problem.jump(), bodies, problem.equality().local(), problem.constraints(),
                                   unknowns(problem.constraints(), problem.jump(), problem.dimension()), comm);
   Eigen::VectorXd slid = problem.jumps(displacement);
   for (std::size_t r = 0; r < contacts.rows.bound.size(); ++r)

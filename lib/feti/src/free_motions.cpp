@@ -320,7 +320,7 @@ std::vector<FreeMotion> find_free_motions(const partition::Decomposition& decomp
                                           std::span<const constraint::SlidingSurface> sliding_surfaces,
                                           const std::vector<Eigen::VectorXd>& load, const Communicator& comm)
 {
-  Bodies bodies = aggregate(decomposition, clusters, kinematics, load, comm);
+  Bodies bodies = loaded_bodies(decomposition, clusters, kinematics, load, comm);
   const BodyRows rows = body_rows(jump, bodies, g, constraints, unknowns, comm);
   FreeMotionSearch search(bodies, rows, constraints.contacts, comm);
   for (const auto& unit : units(rows, constraints.contacts, constraints.contacts.bonded, bodies, comm))

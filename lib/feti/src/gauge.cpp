@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "body_rows.hpp"
+#include "unit_motions.hpp"
 
 namespace mortise::feti {
 

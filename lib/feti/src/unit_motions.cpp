@@ -45,6 +45,14 @@ Eigen::VectorXd amplitudes_of(const RigidMotion& motion, const BodyFrame& frame,
   return result;
 }
 
+Eigen::VectorXd sample(const RigidMotion& motion, const std::vector<Point>& points, int dimension)
+{
+  Eigen::VectorXd v(static_cast<Eigen::Index>(points.size()) * dimension);
+  for (std::size_t n = 0; n < points.size(); ++n)
+    v.segment(static_cast<Eigen::Index>(n) * dimension, dimension) = motion.at(points[n]).head(dimension);
+  return v;
+}
+
 Eigen::MatrixXd complement(const Eigen::MatrixXd& given)
 {
   const auto modes = given.rows();

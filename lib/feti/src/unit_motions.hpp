@@ -17,6 +17,9 @@ RigidMotion combine(int body, const BodyFrame& frame, const Eigen::Ref<const Eig
 /// The amplitudes of a rigid motion, of a body with that frame; the reverse of combine().
 Eigen::VectorXd amplitudes_of(const RigidMotion& motion, const BodyFrame& frame, fem::Kinematics kinematics);
 
+/// The velocities of a motion at points, one after the other.
+Eigen::VectorXd sample(const RigidMotion& motion, const std::vector<Point>& points, int dimension);
+
 /// An orthonormal basis of what is orthogonal to the orthonormal columns of `given`.
 Eigen::MatrixXd complement(const Eigen::MatrixXd& given);
 

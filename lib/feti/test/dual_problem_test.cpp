@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "cube.hpp"
 #include "feti/displacements.hpp"
+#include "feti/rigid_modes.hpp"
 #include "qp/smalse.hpp"
 
 namespace mortise::feti {
@@ -315,6 +316,31 @@ TEST(DualProblem, AFloatingBodyThatNothingPullsIsGauged)
   for (auto& f : cube.load) f.setZero();
   const auto problem = cube.problem();
   EXPECT_EQ(cube.comm.sum(static_cast<long long>(problem.jump().ranges().end - problem.jump().ranges().extra)), 6);
+}
+
+TEST(RigidModes, AreFeltAsTheirDisplacementsAre)
+{
+  for (const int per_cluster : {1, 4}) {
+    const Cube cube(100, true, MPI_COMM_SELF, per_cluster);
+    const auto problem = cube.problem();
+    const auto modes = rigid_modes(cube.decomposition, cube.system.clusters, fem::Kinematics::solid, cube.comm);
+    ASSERT_EQ(modes.modes, 6);
+    const auto& frame = modes.frames.front();
+    const Eigen::VectorXd a = Eigen::VectorXd::LinSpaced(6, -1, 2);
+    const RigidMotion motion{0, frame.centre, a.head<3>(), frame.axes * a.tail<3>().cwiseQuotient(frame.arms)};
+    std::vector<Eigen::VectorXd> u;
+    for (const auto& subdomain : cube.decomposition.subdomains) {
+      u.emplace_back(3 * static_cast<Eigen::Index>(subdomain.mesh.node_count()));
+      for (std::size_t n = 0; n < subdomain.mesh.node_count(); ++n)
+        u.back().segment<3>(3 * static_cast<Eigen::Index>(n)) = motion.at(subdomain.mesh.points[n]);
+    }
+    const Eigen::VectorXd felt = rows_of_bodies(problem.jump(), problem.equality().local(), modes) * a;
+    const Eigen::VectorXd jumps = problem.jumps(u);
+    EXPECT_GT(felt.norm(), 1);
+    EXPECT_EQ(jumps.size(), problem.jump().ranges().dirichlet + felt.size());
+    EXPECT_LT((jumps.tail(felt.size()) - felt).norm(), 1e-12 * felt.norm()) << per_cluster;
+    EXPECT_LT(jumps.head(jumps.size() - felt.size()).norm(), 1e-12 * felt.norm()) << per_cluster;
+  }
 }
 
 TEST(RigidMotion, IsDescribedInWords)

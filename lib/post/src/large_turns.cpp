@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "feti/rigid_modes.hpp"
 #include "post/drift.hpp"
 #include "wording.hpp"
 
@@ -18,94 +19,32 @@ using Fields = std::vector<Eigen::VectorXd>;  // of each subdomain of this rank
 
 constexpr double much = 0.02;  // of forces
 
-// Rigid motions of all bodies: of each a translation and a rotation about its centre, times its radius. Motions that a model does
-// not have, as those out of a plane, are columns of zeros.
-class RigidMotions {
- public:
-  RigidMotions(const partition::Decomposition& decomposition, fem::Kinematics kinematics, const Communicator& comm)
-      : decomposition_(decomposition),
-        dimension_(fem::dimension(kinematics)),
-        frames_(feti::body_frames(decomposition, comm)),
-        comm_(comm)
-  {
+// field(b, x) at each node of body b.
+template <class Field>
+Fields fields(const partition::Decomposition& decomposition, const Field& field)
+{
+  const int dimension = decomposition.catalogue.dimension;
+  Fields result;
+  for (const auto& subdomain : decomposition.subdomains) {
+    auto& u = result.emplace_back(static_cast<Eigen::Index>(subdomain.mesh.node_count()) * dimension);
+    for (std::size_t n = 0; n < subdomain.mesh.node_count(); ++n)
+      u.segment(static_cast<Eigen::Index>(n) * dimension, dimension) =
+          Point(field(static_cast<std::size_t>(subdomain.body), subdomain.mesh.points[n])).head(dimension);
   }
+  return result;
+}
 
-  Eigen::Index size() const { return 6 * static_cast<Eigen::Index>(frames_.size()); }
-  const std::vector<feti::BodyFrame>& frames() const { return frames_; }
-
-  // field(b, r) at each node of body b, r from its centre.
-  template <class Field>
-  Fields fields(const Field& field) const
-  {
-    Fields result;
-    for (const auto& subdomain : decomposition_.subdomains) {
-      auto& u = result.emplace_back(static_cast<Eigen::Index>(subdomain.mesh.node_count()) * dimension_);
-      const auto b = static_cast<std::size_t>(subdomain.body);
-      for (Eigen::Index n = 0; n * dimension_ < u.size(); ++n)
-        u.segment(n * dimension_, dimension_) = Point(field(b, arm(subdomain, n))).head(dimension_);
-    }
-    return result;
-  }
-  Fields of(const Eigen::VectorXd& motion) const
-  {
-    return fields([&](std::size_t b, const Point& r) {
-      const auto v = motion.segment<6>(6 * static_cast<Eigen::Index>(b));
-      return Point(v.head<3>() + rotation(v).cross(r) / frames_[b].radius);
-    });
-  }
-  // The transpose: of each body the force and the moment, over its radius. Collective.
-  Eigen::VectorXd resultants(const Fields& force) const
-  {
-    Eigen::VectorXd result = Eigen::VectorXd::Zero(size());
-    for (std::size_t s = 0; s < force.size(); ++s) {
-      const auto& subdomain = decomposition_.subdomains[s];
-      const auto b = static_cast<std::size_t>(subdomain.body);
-      auto sum = result.segment<6>(6 * static_cast<Eigen::Index>(b));
-      for (Eigen::Index n = 0; n * dimension_ < force[s].size(); ++n) {
-        const Point f = at(force[s], n), moment = arm(subdomain, n).cross(f) / frames_[b].radius;
-        sum.head<3>() += f;
-        if (dimension_ == 3)
-          sum.tail<3>() += moment;
-        else
-          sum[5] += moment[2];
-      }
-    }
-    comm_.sum_in_place({result.data(), static_cast<std::size_t>(result.size())});
-    return result;
-  }
-  // Of each body the sum of the lengths of nodal forces. Collective.
-  std::vector<double> sizes(const Fields& force) const
-  {
-    std::vector<double> result(frames_.size(), 0.0);
-    for (std::size_t s = 0; s < force.size(); ++s)
-      for (Eigen::Index n = 0; n * dimension_ < force[s].size(); ++n)
-        result[static_cast<std::size_t>(decomposition_.subdomains[s].body)] += at(force[s], n).norm();
-    comm_.sum_in_place(result);
-    return result;
-  }
-
- private:
-  Point at(const Eigen::VectorXd& field, Eigen::Index n) const
-  {
-    Point result = Point::Zero();
-    result.head(dimension_) = field.segment(n * dimension_, dimension_);
-    return result;
-  }
-  Point arm(const partition::Subdomain& subdomain, Eigen::Index n) const
-  {
-    return subdomain.mesh.points[static_cast<std::size_t>(n)] - frames_[static_cast<std::size_t>(subdomain.body)].centre;
-  }
-  template <class Six>
-  Point rotation(const Six& v) const
-  {
-    return dimension_ == 3 ? Point(v.template tail<3>()) : Point(0, 0, v[5]);
-  }
-
-  const partition::Decomposition& decomposition_;
-  int dimension_;
-  std::vector<feti::BodyFrame> frames_;
-  const Communicator& comm_;
-};
+// Of each body the sum of the lengths of nodal forces. Collective.
+std::vector<double> sizes_on_bodies(const partition::Decomposition& decomposition, const Fields& force, const Communicator& comm)
+{
+  const int dimension = decomposition.catalogue.dimension;
+  std::vector<double> result(decomposition.catalogue.bodies.size(), 0.0);
+  for (std::size_t s = 0; s < force.size(); ++s)
+    for (Eigen::Index i = 0; i < force[s].size(); i += dimension)
+      result[static_cast<std::size_t>(decomposition.subdomains[s].body)] += force[s].segment(i, dimension).norm();
+  comm.sum_in_place(result);
+  return result;
+}
 
 // Of each owned row what it presses with, where it is a contact's.
 Eigen::VectorXd pressing_forces(const feti::DualProblem& problem, const Eigen::VectorXd& forces)
@@ -210,26 +149,23 @@ double growth_of(const BodyMotion& motion)
   return motion.rigid.rotation.norm() * motion.turning / 2;
 }
 
-// What each row feels of 1/2 omega x (omega x r), contacts the part that felt_of_flats() says.
+// What each row feels of 1/2 omega x (omega x r), contacts the part that felt_of_flats() says. `length`: of the bodies.
 // Collective.
-Eigen::VectorXd second_order_felt(const feti::DualProblem& problem, const RigidMotions& motions,
+Eigen::VectorXd second_order_felt(const feti::DualProblem& problem, const partition::Decomposition& decomposition,
                                   const std::vector<BodyMotion>& turns, std::span<const contact::Pair> pairs,
-                                  const Eigen::VectorXd& pressing)
+                                  const Eigen::VectorXd& pressing, double length)
 {
-  const Fields second_order = motions.fields([&](std::size_t b, const Point& r) {
+  const Fields second_order = fields(decomposition, [&](std::size_t b, const Point& x) {
     const Point& omega = turns[b].rigid.rotation;
-    return Point(0.5 * omega.cross(omega.cross(r)));
+    return Point(0.5 * omega.cross(omega.cross(x - turns[b].rigid.centre)));
   });
-  const Fields first_order = motions.fields(
-      [&](std::size_t b, const Point& r) { return Point(turns[b].rigid.translation + turns[b].rigid.rotation.cross(r)); });
+  const Fields first_order = fields(decomposition, [&](std::size_t b, const Point& x) { return turns[b].rigid.at(x); });
   std::vector<Point> turn;  // of each contact
   for (const auto& bodies : bodies_of_contacts(pairs, problem.communicator())) {
     const auto fastest =
         std::ranges::max_element(bodies, {}, [&](int b) { return growth_of(turns[static_cast<std::size_t>(b)]); });
     turn.push_back(fastest == bodies.end() ? Point(Point::Zero()) : turns[static_cast<std::size_t>(*fastest)].rigid.rotation);
   }
-  double length = 0;
-  for (const auto& frame : motions.frames()) length = std::max(length, frame.radius);
   const auto part = felt_of_flats(problem, pressing, problem.jumps(first_order), turn, length);
   Eigen::VectorXd result = problem.jumps(second_order);
   const auto& contacts = problem.constraints().contacts;
@@ -238,23 +174,23 @@ Eigen::VectorXd second_order_felt(const feti::DualProblem& problem, const RigidM
   return result;
 }
 
-// e + row . v of each row for the rigid motions v that make the sum of its squares, times `weight`, least: by conjugate gradients
-// on the normal equations. Collective.
-Eigen::VectorXd least_felt(const feti::DualProblem& problem, const RigidMotions& motions, const Eigen::VectorXd& weight,
-                           Eigen::VectorXd e)
+// e + rows v for the amplitudes v that make the sum of its squares, times `weight`, least: by conjugate gradients on the normal
+// equations. Collective.
+Eigen::VectorXd least_felt(const SparseMatrix& rows, const Eigen::VectorXd& weight, Eigen::VectorXd e, const Communicator& comm)
 {
   constexpr int most = 300;
   constexpr double small = 1e-6, rounding = 1e-9;  // of the first descent, and of what it is the sum of: beyond is no motion
-  const auto pull = [&](const Eigen::VectorXd& rows) -> Eigen::VectorXd {
-    return -motions.resultants(problem.jump().apply_transpose(problem.multipliers(weight.cwiseProduct(rows))));
+  const auto pull = [&](const Eigen::VectorXd& felt) {
+    Eigen::VectorXd result = -(rows.transpose() * weight.cwiseProduct(felt));
+    comm.sum_in_place({result.data(), static_cast<std::size_t>(result.size())});
+    return result;
   };
   Eigen::VectorXd descent = pull(e), direction = descent;
   double square = descent.squaredNorm();
-  const double enough =
-      std::max(small * small * square, std::pow(rounding * problem.communicator().sum(weight.dot(e.cwiseAbs())), 2));
+  const double enough = std::max(small * small * square, std::pow(rounding * comm.sum(weight.dot(e.cwiseAbs())), 2));
   for (int k = 0; k < most && square > enough; ++k) {
-    const Eigen::VectorXd felt = problem.jumps(motions.of(direction));
-    const double curvature = problem.communicator().sum(felt.dot(weight.cwiseProduct(felt)));
+    const Eigen::VectorXd felt = rows * direction;
+    const double curvature = comm.sum(felt.dot(weight.cwiseProduct(felt)));
     if (!(curvature > 0)) break;
     e += square / curvature * felt;
     descent = pull(e);
@@ -287,11 +223,16 @@ LargeTurn large_turn(const feti::DualProblem& problem, const Vector& lambda, con
   for (std::size_t b = 0; b < turns.size(); ++b) most = std::max(most, growth(b)), total += strain_energy[b];
   if (!(farthest * most * all > least * much * total)) return {};
 
-  const RigidMotions motions(decomposition, kinematics, comm);
-  const Eigen::VectorXd whole = second_order_felt(problem, motions, turns, pairs, pressing);
-  const Eigen::VectorXd lacks = least_felt(problem, motions, firmness(problem, pressing, states), whole);
+  const auto bodies = feti::rigid_modes(decomposition, problem.system().clusters(), kinematics, comm);
+  double length = 0;
+  for (const auto& frame : bodies.frames) length = std::max(length, frame.radius);
+  const Eigen::VectorXd whole = second_order_felt(problem, decomposition, turns, pairs, pressing, length);
+  const SparseMatrix rows = feti::rows_of_bodies(problem.jump(), problem.equality().local(), bodies);
+  Eigen::VectorXd lacks = whole;
+  lacks.tail(rows.rows()) =
+      least_felt(rows, firmness(problem, pressing, states).tail(rows.rows()), whole.tail(rows.rows()), comm);
   const Eigen::VectorXd work = pressing.cwiseProduct(lacks), size = work.cwiseAbs();
-  const auto of_bodies = motions.sizes(problem.jump().apply_transpose(problem.multipliers(size)));
+  const auto of_bodies = sizes_on_bodies(decomposition, problem.jump().apply_transpose(problem.multipliers(size)), comm);
   if (!(comm.sum(size.sum()) > rigid * comm.sum(pressing.dot(whole.cwiseAbs())))) return {};
   LargeTurn result;
   double energy = 0;
