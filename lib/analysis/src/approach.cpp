@@ -9,19 +9,14 @@
 #include "partition/options.hpp"
 #include "partition/smaller_subdomains.hpp"
 #include "partition/whole_bodies.hpp"
+#include "qp/limits.hpp"
 #include "qp/solver.hpp"
 
 namespace mortise::analysis {
 
 namespace {
 
-constexpr int products_of_check = 600;      // that a direct solution is one, or a start that A^-1 leads on from
-constexpr int products_on_large_ones = 80;  // on subdomains that are so many times as large as usual,
-constexpr int large = 4;
-constexpr int products_on_smaller_ones = 60;   // and then on smaller ones, at least
-constexpr double long_direct = 4;              // seconds that a direct solution may take before products with whole bodies
-constexpr int products_on_whole_bodies = 300;  // are tried, so many
-constexpr int near_on_whole_bodies = 100;      // and these more with the end in sight
+constexpr int large = 4;  // times as many unknowns as usual: subdomains that may be worth cutting
 
 int usual_unknowns(const model::Deck& deck)
 {
@@ -71,27 +66,28 @@ Outcome failed(const Approach& approach, int spent, const Communicator& comm)
 Approach with_patience(Approach approach, const Assembly& assembly, const constraint::Constraints& constraints,
                        const Communicator& comm)
 {
+  using Limits = qp::limits::Automatic;
   const auto effort = [&] { return effort_of_direct(assembly, constraints, comm); };
   if (approach.kind == Approach::Kind::direct_instead)
-    approach.patience = products_of_check;
+    approach.patience = Limits::of_check;
   else if (approach.kind == Approach::Kind::whole_bodies)
-    approach.patience = qp::Patience(products_on_whole_bodies, near_on_whole_bodies);
+    approach.patience = qp::Patience(Limits::on_whole_bodies, Limits::near_on_whole_bodies);
   else if (approach.algorithm == qp::Options::automatic) {
     const auto of_direct = effort();
     approach.patience = patience_with_products(of_direct, comm);
-    if (approach.patience && of_direct.seconds > long_direct && cuts_bodies(assembly, comm))
+    if (approach.patience && of_direct.seconds > Limits::long_direct && cuts_bodies(assembly, comm))
       approach.next = Approach::Kind::whole_bodies;
     // All that comes before a direct solution together may cost as much as that, and little more. How near the end is, is known
     // where a residual tells.
     if (approach.kind == Approach::Kind::smaller_subdomains && approach.patience) {
       auto& [products, near] = *approach.patience;
       products -= approach.spent;
-      if (products < products_on_smaller_ones && !assembly.deck().solver.programme.tolerance.value) near = 0;
-      products = std::max(products, products_on_smaller_ones);
+      if (products < Limits::on_smaller_ones && !assembly.deck().solver.programme.tolerance.value) near = 0;
+      products = std::max(products, Limits::on_smaller_ones);
     }
-    if (approach.kind == Approach::Kind::as_asked && approach.patience.value_or(INT_MAX).products > products_on_large_ones &&
+    if (approach.kind == Approach::Kind::as_asked && approach.patience.value_or(INT_MAX).products > Limits::on_large_ones &&
         has_large_subdomains(assembly, comm)) {
-      approach.patience = products_on_large_ones;
+      approach.patience = Limits::on_large_ones;
       approach.next = Approach::Kind::smaller_subdomains;
     }
   } else if (qp::solver_kind(approach.algorithm).whole_bodies)

@@ -20,14 +20,6 @@ namespace {
 // Measured on one core of 2025: dense algebra on matrices is bound by arithmetic, a product with F by memory.
 constexpr double dense_rate = 30e9, sparse_rate = 1.5e9;  // operations a second
 constexpr double set_up = 10;                             // products that assembling and cutting anew take
-constexpr double shortest = 15;                           // products that are tried in any case
-constexpr double a_second = 16;                           // products more for each second that a direct solution takes,
-constexpr double a_moment = 60;                           // where these are less,
-constexpr double longest = 100;                           // up to so many
-constexpr double part_of_rest = 0.25;                     // of what a direct solution takes that an end of products in sight may,
-constexpr double most_of_rest = 40;                       // products at most,
-constexpr double at_once = 0.1;                           // if it takes so many seconds
-constexpr double part_of_memory = 0.5;                    // of what is available
 
 // The rows between subdomains of boundary elements, which stay as they are cut. On this rank, those of a node shared out over its
 // copies.
@@ -155,12 +147,15 @@ DirectEffort effort_of_direct(const Assembly& assembly, const constraint::Constr
 
 std::optional<qp::Patience> patience_with_products(const DirectEffort& effort, const Communicator& comm)
 {
-  const double room = -comm.max(-part_of_memory * available_memory());
+  using Limits = qp::limits::Automatic;
+  const double room = -comm.max(-Limits::part_of_memory * available_memory());
   if (!(effort.bytes < room) || effort.too_many()) return {};
-  const double most =
-      effort.seconds < a_moment ? std::min(shortest + a_second * effort.seconds, longest) : std::numeric_limits<int>::max();
-  const double near = effort.seconds < at_once ? 0 : std::min(part_of_rest * effort.products, most_of_rest);
-  return qp::Patience(static_cast<int>(std::clamp(effort.products, shortest, most)), static_cast<int>(near));
+  const double most = effort.seconds < Limits::a_moment
+                          ? std::min(Limits::shortest + Limits::a_second * effort.seconds, Limits::longest)
+                          : std::numeric_limits<int>::max();
+  const double near =
+      effort.seconds < Limits::at_once ? 0 : std::min(Limits::part_of_rest * effort.products, Limits::most_of_rest);
+  return qp::Patience(static_cast<int>(std::clamp(effort.products, Limits::shortest, most)), static_cast<int>(near));
 }
 
 void require_room_for_direct(const DirectEffort& effort, const Communicator& comm)
@@ -171,7 +166,7 @@ void require_room_for_direct(const DirectEffort& effort, const Communicator& com
       ExitStatus::machine,
       fmt::format("not enough memory: `solver.algorithm: direct` makes matrices of {} rows, about {:.1f} GB; there is room for "
                   "{:.1f} GB and {} rows. `auto` and `face_newton` need no such matrices",
-                  effort.multipliers, effort.bytes / 1e9, room / 1e9, DirectEffort::most_multipliers));
+                  effort.multipliers, effort.bytes / 1e9, room / 1e9, qp::limits::Automatic::most_multipliers));
 }
 
 }  // namespace mortise::analysis

@@ -100,10 +100,9 @@ void CoulombSearch::follow_cautiously()
 
 bool CoulombSearch::judge(qp::Solution& solution)
 {
-  constexpr double slack = 1.5;  // of an allowed error, by what is next to nothing in energy at the limit of friction
   judge_by_law(problem_.dual, problem_.omega.with_radii(at_work_), problem_.laws, means_.hessian, solution);
   judged_ = true;
-  return !problem_.goal.allowed_error || !(solution.error > slack * problem_.goal.allowed_error(solution.x, solution.nu));
+  return !problem_.goal.allowed_error || !(solution.error > Limits::slack * problem_.goal.allowed_error(solution.x, solution.nu));
 }
 
 CoulombSolution CoulombSearch::solve(const CoulombWays& ways)

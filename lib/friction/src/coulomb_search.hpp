@@ -8,6 +8,26 @@
 
 namespace mortise::friction {
 
+/// Where the search ends, and what it tries next. Changes are those of slip bounds, relative.
+struct SearchLimits {
+  // Solved.
+  static constexpr double worth_a_look = 0.05;  ///< change at which the allowed error is asked for, which costs a sweep
+  static constexpr double below_change = 0.1;   ///< of it, residual of a Tresca problem: no more exact than its bounds are known
+  static constexpr double below_tolerance = 0.1;  ///< of the loop's tolerance, the same once bounds rest
+  static constexpr double stricter = 0.1;         ///< times the residuals before, where bounds rest beside too large an error
+  static constexpr int idle_steps = 3;  ///< without a smaller change: light groups of bodies feel what solutions leave of others
+  static constexpr double slack = 1.5;  ///< of an allowed error, by what is next to nothing in energy at the limit of friction
+  static constexpr double to_come = 100;  ///< changes that are still to come, at most, over the next one
+  static constexpr double step = 1e-3;    ///< change that tells how normal forces answer; less may be rounding
+  // Bounds that leave no feasible point.
+  static constexpr int retreats = 4;        ///< half way back in a row, then bounds that surely leave one,
+  static constexpr double room = 1 + 1e-6;  ///< times as large, for in a set of these it would be on the edge
+  static constexpr double balanced = 1e-6;  ///< of all forces: what the search for such a point may leave
+  // Given up.
+  static constexpr int most_failures = 15;                 ///< problems without a feasible point
+  static constexpr int steps_of_fall = 2, most_falls = 2;  ///< bounds that fell ever faster until they were too small, so often
+};
+
 /// The search of solve_coulomb(), which it is made for. What the problem and the means refer to outlives it. Collective.
 class CoulombSearch {
  public:
@@ -18,6 +38,8 @@ class CoulombSearch {
   CoulombSolution solve(const CoulombWays& ways);
 
  private:
+  using Limits = SearchLimits;
+
   /// Bounds and forces together, if the algorithm can.
   void follow_law();
   /// From what was found so far.

@@ -14,14 +14,11 @@ namespace mortise::friction {
 
 namespace {
 
-constexpr double worth_a_look = 0.05;  // change of the slip bounds at which the allowed error is asked for
-
 // All changes that are to come over the next one, if each is so much of the one before; `response`: see CoulombSearch.
 double to_come(const std::optional<double>& response)
 {
-  constexpr double most = 100;
   if (!response) return 1;
-  return *response < 1 ? std::min(1 / (1 - *response), most) : most;
+  return *response < 1 ? std::min(1 / (1 - *response), SearchLimits::to_come) : SearchLimits::to_come;
 }
 
 }  // namespace
@@ -54,7 +51,7 @@ bool CoulombSearch::contacts_at_rest()
         qp::predict({{means_.hessian, problem_.dual.equality(), set}, problem_.right, set}, *solution_, *preconditioner);
     if (predicted && !goal.contact_converged(solution_->x, predicted->argument, predicted->change)) return false;
   }
-  return !goal.incompatibility || goal.incompatibility(solution_->x, solution_->nu) <= qp::Goal::nearly_compatible;
+  return !goal.incompatibility || goal.incompatibility(solution_->x, solution_->nu) <= qp::limits::Every::nearly_compatible;
 }
 
 // Whether a small residual of the solution is to be believed.
@@ -73,17 +70,17 @@ bool CoulombSearch::at_rest(const std::vector<double>& wanted, double tolerance)
   if (!goal.allowed_error || !std::isfinite(solution.error))
     return bounds_rest && tolerance <= goal.residual && solution.converged && believable();
   solution.error += error_of_bounds(wanted) * to_come(response_);
-  if (change_ <= worth_a_look && solution.error <= goal.allowed_error(solution.x, solution.nu) && qp::fits(solution, goal) &&
-      balances(problem_.dual, problem_.omega, wanted, solution.x) && contacts_at_rest() && judge(solution))
+  if (change_ <= Limits::worth_a_look && solution.error <= goal.allowed_error(solution.x, solution.nu) &&
+      qp::fits(solution, goal) && balances(problem_.dual, problem_.omega, wanted, solution.x) && contacts_at_rest() &&
+      judge(solution))
     return true;
   // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
-  return bounds_rest && solution.converged && tolerance <= 1e-1 * problem_.options.tolerance && believable();
+  return bounds_rest && solution.converged && tolerance <= Limits::below_tolerance * problem_.options.tolerance && believable();
 }
 
 // Of the last step that changes the bounds by more than rounding. Collective.
 void CoulombSearch::note_response(const std::vector<double>& wanted)
 {
-  constexpr double step = 1e-3;
   if (any_answer_) {
     std::array<double, 3> squares{0, 0, 0};  // of the changes of bounds and answers, of the answers
     for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -93,7 +90,7 @@ void CoulombSearch::note_response(const std::vector<double>& wanted)
       squares[2] += wanted[i] * wanted[i];
     }
     problem_.dual.communicator().sum_in_place(squares);
-    if (squares[0] > step * step * squares[2]) response_ = std::sqrt(squares[1] / squares[0]);
+    if (squares[0] > Limits::step * Limits::step * squares[2]) response_ = std::sqrt(squares[1] / squares[0]);
   }
   any_answer_ = true;
   answered_ = radii_;
@@ -126,34 +123,28 @@ double CoulombSearch::error_of_bounds(const std::vector<double>& wanted)
 // are a little larger.
 void CoulombSearch::admit()
 {
-  constexpr double room = 1 + 1e-6;
-  constexpr double balanced = 1e-6;  // of all forces: what a search that does not converge may leave
   const qp::FeasibleSet cones = problem_.omega.with_radii(at_work_).with_cones();
   const auto& e = problem_.right.e;
   qp::Projector projector(problem_.dual.equality(), cones);
   qp::Projection nearest = projector(solution_->x, e, cones);
-  if (!nearest.found && nearest.residual > balanced) {
+  if (!nearest.found && nearest.residual > Limits::balanced) {
     if (!proven_ && !nearest.empty) projector.prove_empty(e, cones, nearest);
     feti::no_equilibrium(problem_.dual, proven_ ? escape_ : nearest.nu, feti::fall_short(nearest));
   }
   radii_ = radii_at(&nearest.point);
-  for (auto& radius : radii_) radius *= room;
+  for (auto& radius : radii_) radius *= Limits::room;
 }
 
 // Bounds from inexact normal forces may fall short by as much: half way back, now and then to what surely is feasible.
 void CoulombSearch::step_back()
 {
-  constexpr int retreats = 4;  // in a row
   auto half_way = qp::half_way_back(radii_, previous_radii_);
   admit();
-  if (++infeasible_ % retreats != 0) radii_ = std::move(half_way);
+  if (++infeasible_ % Limits::retreats != 0) radii_ = std::move(half_way);
 }
 
 void CoulombSearch::fixed_point()
 {
-  constexpr int most_failures = 15;
-  constexpr int steps_of_fall = 2, most_falls = 2;
-  constexpr int idle_steps = 3;  // without a smaller change, which is then what solutions leave of the light groups of bodies
   const auto& [dual, laws, omega, right, goal, options, before, begin] = problem_;
   Relaxation relaxation(dual.communicator());
   int failures = 0, falls = 0, idle = 0;
@@ -165,17 +156,19 @@ void CoulombSearch::fixed_point()
     ++step_;
     // Looser again would bring swings of its own; and bounds that rest but for a loose tolerance would stay where they are.
     const double tightest =
-        std::max(qp::tolerances::rounding, strictness * (goal.allowed_error ? 0.1 * options.tolerance : goal.residual));
-    const double tolerance = least_change <= options.tolerance
-                                 ? tightest
-                                 : std::max(tightest, std::min(qp::tolerances::loosest, 0.1 * strictness * least_change));
+        std::max(qp::limits::Every::rounding,
+                 strictness * (goal.allowed_error ? Limits::below_tolerance * options.tolerance : goal.residual));
+    const double tolerance =
+        least_change <= options.tolerance
+            ? tightest
+            : std::max(tightest, std::min(qp::limits::Every::loosest, Limits::below_change * strictness * least_change));
     const bool first = !solved_;
     if (!solve_tresca({tolerance})) {
       if (!solved_) feti::nothing_found(dual, omega.with_radii(at_work_).with_cones(), escape_, proven_);
       // Bounds fell ever faster until they were too small, and did so again from those that are surely enough.
-      if (infeasible_ == 0 && relaxation.growing() >= steps_of_fall && ++falls >= most_falls)
+      if (infeasible_ == 0 && relaxation.growing() >= Limits::steps_of_fall && ++falls >= Limits::most_falls)
         refuse_if_far(dual, omega, laws, solution_->x, response_);
-      if (++failures > most_failures || step_ >= options.max_steps) {
+      if (++failures > Limits::most_failures || step_ >= options.max_steps) {
         refuse_if_far(dual, omega, laws, solution_->x, response_);
         return;
       }
@@ -190,8 +183,8 @@ void CoulombSearch::fixed_point()
     converged_ = !first && at_rest(wanted, tolerance);
     idle = first || !apart || change_ < least_change ? 0 : idle + 1;
     // Bounds at rest beside an error that is too large.
-    if (!converged_ && ((change_ <= options.tolerance && tolerance <= tightest) || idle >= idle_steps)) {
-      strictness *= 0.1;
+    if (!converged_ && ((change_ <= options.tolerance && tolerance <= tightest) || idle >= Limits::idle_steps)) {
+      strictness *= Limits::stricter;
       idle = 0;
     }
     if (converged_ || step_ >= options.max_steps || means_.hessian.exhausted()) return;

@@ -12,10 +12,8 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr std::size_t fewest_inner = 60;  // steps on one active set; more where there is room to keep them
-constexpr int max_unconstrained = 1000;   // where there are no others
-constexpr double least_new = 1e-3;        // of a recycled direction, for an active set to use it
-constexpr double least_recycled = 1e-4;   // of x: below, rounding spoils what the difference of two points tells of A
+constexpr double least_new = 1e-3;       // of a recycled direction, for an active set to use it
+constexpr double least_recycled = 1e-4;  // of x: below, rounding spoils what the difference of two points tells of A
 
 // [E'(A + Sigma) d, weight * constrained part of d], what an active set feels of a direction d; `product`: A d.
 Vector projected_image(const ActiveSet& active_set, const Vector& direction, const Vector& product, double weight, int sweeps)
@@ -254,13 +252,13 @@ bool FaceNewton::descend_alone(const ActiveSet& active_set, double goal, const s
   Vector residual(g, Teuchos::Copy), direction(map), product(map);
   residual.scale(-1);
   active_set.project_gradient(residual);
-  if (residual.norm2() <= 1e-2 * goal) return false;
+  if (residual.norm2() <= Limits::nothing_to_do * goal) return false;
   struct Step {
     Vector direction, image;
     double energy;
   };
   std::deque<Step> steps;  // the last ones: rounding spoils the orthogonality that two would have
-  for (int step = 0; step < max_unconstrained && !programme_.hessian.exhausted(); ++step) {
+  for (int step = 0; step < Limits::most_unconstrained && !programme_.hessian.exhausted(); ++step) {
     precondition(active_set, residual, direction);
     active_set.project(direction);
     for (const auto& before : steps) direction.update(-before.image.dot(direction) / before.energy, before.direction, 1);
@@ -300,8 +298,8 @@ bool FaceNewton::descend(const ActiveSet& active_set, double goal, double weight
   gy.assign(g);
   Descent descent(active_set, programme_.equality.communicator(), preconditioner_ && preconditioner_->knows_curvature(), gy);
   const double start = descent.size();
-  if (start <= 1e-2 * goal) return false;
-  goal = std::max(goal, inner_reduction * start);
+  if (start <= Limits::nothing_to_do * goal) return false;
+  goal = std::max(goal, Limits::inner_reduction * start);
   if (trusted) {
     std::vector<std::pair<const Vector*, const Vector*>> moves;
     Eigen::MatrixXd images(view(z).size(), static_cast<Eigen::Index>(recycled_directions_.size()));
@@ -313,7 +311,7 @@ bool FaceNewton::descend(const ActiveSet& active_set, double goal, double weight
     descent.go(moves, std::move(images), least_new);
   }
   std::deque<std::pair<Vector, Vector>> fresh;
-  const int most = static_cast<int>(std::max(fewest_inner, kept_));
+  const int most = static_cast<int>(std::max(Limits::fewest_inner, kept_));
   for (int step = 0; step < most && descent.size() > goal && !programme_.hessian.exhausted(); ++step) {
     const Vector free = descent.split(constrained);
     constrained.scale(1 / weight);

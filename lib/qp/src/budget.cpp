@@ -9,12 +9,9 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr double less = 0.7;  // times the best so far is better
-constexpr int of_late = 50;   // products that tell a pace
-
 bool improve(double value, double& best)
 {
-  if (!(value < less * best)) return false;
+  if (!(value < Budget::Limits::less * best)) return false;
   best = value;
   return true;
 }
@@ -33,7 +30,7 @@ void Budget::start(std::optional<Patience> patience, double goal)
   least_ = std::numeric_limits<double>::infinity();
   begin_ = better_ = hessian_.count();
   patience_ = patience;
-  end_ = given_ ? *given_ : begin_ + most;
+  end_ = given_ ? *given_ : begin_ + Limits::most;
   best_ = {};
   set_limit();
 }
@@ -61,7 +58,7 @@ void Budget::note(const Progress& progress, std::optional<long long> changes, do
   if (better) better_ = hessian_.count();
   // The pace is that of late: a residual may fall at first, and stand later.
   const int spent = hessian_.count() - begin_;
-  if (patience_ && first_ && spent >= look && spent - first_->first >= of_late) {
+  if (patience_ && first_ && spent >= Limits::look && spent - first_->first >= Limits::of_late) {
     if (foreseen() > patience_->products + patience_->near) patience_ = spent;
     first_ = {spent, least_};
   }
@@ -81,9 +78,10 @@ void Budget::set_limit()
   int limit = end_;
   if (patience_) {
     const bool is_near = foreseen() <= hessian_.count() - begin_ + patience_->near;
-    limit = std::min({limit, begin_ + patience_->products + (is_near ? patience_->near : 0), std::max(begin_, better_) + look});
+    limit = std::min(
+        {limit, begin_ + patience_->products + (is_near ? patience_->near : 0), std::max(begin_, better_) + Limits::look});
   } else if (!given_ && !steady_)
-    limit = std::min(limit, better_ + stretch);
+    limit = std::min(limit, better_ + Limits::stretch);
   hessian_.set_limit(limit);
 }
 
@@ -91,8 +89,8 @@ std::string Budget::reason() const
 {
   const std::string key = "solver.max_multiplications";
   if (given_) return key;
-  if (hessian_.count() >= end_) return key + fmt::format(" (auto: {} products)", most);
-  return key + fmt::format(" (auto: nothing became better over {} products)", stretch);
+  if (hessian_.count() >= end_) return key + fmt::format(" (auto: {} products)", Limits::most);
+  return key + fmt::format(" (auto: nothing became better over {} products)", Limits::stretch);
 }
 
 }  // namespace mortise::qp

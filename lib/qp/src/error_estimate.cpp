@@ -64,7 +64,8 @@ bool believable(double error, double rounding, const Vector& x, const Eigen::Vec
 
 bool fits(const Solution& solution, const Goal& goal)
 {
-  return solution.projected_gradient <= Goal::largest_residual || believable(solution.error, 0, solution.x, solution.nu, goal);
+  return solution.projected_gradient <= limits::Every::largest_residual ||
+         believable(solution.error, 0, solution.x, solution.nu, goal);
 }
 
 }  // namespace mortise::qp

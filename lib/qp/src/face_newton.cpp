@@ -68,7 +68,7 @@ Solution FaceNewton::solve(const RightHandSide& right, std::span<const double> r
   find_norm(start, observer);
 
   Run run{problem, start, goal, law ? &*followed : nullptr, observer, std::move(result), State(map), ContactForces(problem)};
-  const double size = relative_size(problem, goal.allowed_error ? tolerances::finest : goal.residual);
+  const double size = relative_size(problem, goal.allowed_error ? limits::Every::finest : goal.residual);
   if (size != 0) run.size = size;
   run.active_set_tolerance = law ? first_active_set_tolerance_updated : first_active_set_tolerance;
   if (start && start->nu.size() == problem.equality.size()) run.nu = start->nu * (step_length / norm_);
@@ -161,7 +161,7 @@ Projection FaceNewton::accept(Run& run, const Trial& trial, Judged judged)
   result.nu = natural.nu * norm_;
   ++result.outer_iterations;
   run.size = std::max(run.size, rounding_of_motions(run, natural));
-  const bool near = run.worst() <= run.goal.residual * run.size, slow = run.worst() >= 0.9 * run.best;
+  const bool near = run.worst() <= run.goal.residual * run.size, slow = run.worst() >= Limits::better * run.best;
   result.error = std::numeric_limits<double>::quiet_NaN();
   if (run.goal.allowed_error || run.goal.exact > 0 || near || slow) find_error(run, natural);
   return natural;

@@ -13,10 +13,6 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr double start_precision = 0.25;  // M0; smaller than the usual 1, since the start is feasible and mu is known roughly
-constexpr double shrink_precision = 0.5;  // beta: M falls by this when the Lagrangian did not rise enough
-constexpr double start_accuracy = 0.1;    // eta, relative to ||P b||
-constexpr int max_outer_iterations = 1000;
 constexpr int start_steps = 3;        // gradient projections of a cold start
 constexpr double start_length = 1.5;  // their length, over ||P A P||
 
@@ -158,7 +154,8 @@ bool SmalseRun::is_minimised(double reduced, const Iterate& at)
   }
   report("inner");
   if (is_solved()) return true;
-  return measure_ <= std::min(result_.precision * residual_, start_accuracy * size_) || problem_.hessian.exhausted();
+  return measure_ <= std::min(result_.precision * residual_, limits::Smalse::start_accuracy * size_) ||
+         problem_.hessian.exhausted();
 }
 
 void SmalseRun::iterate()
@@ -175,9 +172,9 @@ void SmalseRun::iterate()
       report("outer", &at);
     }
     result_.converged = is_solved();
-    if (result_.converged || problem_.hessian.exhausted() || result_.outer_iterations >= max_outer_iterations) break;
+    if (result_.converged || problem_.hessian.exhausted() || result_.outer_iterations >= limits::Smalse::most_outer) break;
     const double value = value_of(problem_, constant_, nu_, point_);
-    if (value < previous + 0.5 * residual_ * residual_) result_.precision *= shrink_precision;
+    if (value < previous + 0.5 * residual_ * residual_) result_.precision *= limits::Smalse::shrink_precision;
     previous = value;
     if (problem_.equality.size() == 0) continue;
     nu_ += defect_;
@@ -216,7 +213,7 @@ Solution smalse(const Problem& problem, const std::optional<Solution>& start, do
   }
   result.hessian_norm = start ? start->hessian_norm : projected_norm(problem.hessian, problem.equality);
   if (observer && !start) observer({"norm", 0, problem.hessian.count()});
-  result.precision = start ? start->precision : start_precision;
+  result.precision = start ? start->precision : limits::Smalse::start_precision;
   const auto begin = make_start(problem, start, result.hessian_norm, tolerance, std::move(feasible));
   SmalseRun run(problem, begin, tolerance, observer, result);
   run.iterate();

@@ -34,7 +34,8 @@ class SmalseSolver : public Solver {
 Solution smalse_to_goal(const Problem& problem, std::optional<Solution> start, const Goal& goal,
                         ActiveSetPreconditioner* preconditioner, const Observer& observer)
 {
-  double tolerance = goal.allowed_error ? tolerances::loosest : goal.residual;
+  using Limits = limits::Smalse;
+  double tolerance = goal.allowed_error ? limits::Every::loosest : goal.residual;
   int outer = 0;
   while (true) {
     Solution found = smalse(problem, start, tolerance, observer);
@@ -50,14 +51,15 @@ Solution smalse_to_goal(const Problem& problem, std::optional<Solution> start, c
                         std::max(found.projected_gradient, found.equality) <= goal.residual && believed(true);
       return found;
     }
-    if (!goal.allowed_error || tolerance <= tolerances::finest) {
-      found.converged = believed(tolerance <= tolerances::rounding);
-      if (found.converged || tolerance <= tolerances::rounding) return found;
-      tolerance *= 0.1;
+    if (!goal.allowed_error || tolerance <= limits::Every::finest) {
+      found.converged = believed(tolerance <= limits::Every::rounding);
+      if (found.converged || tolerance <= limits::Every::rounding) return found;
+      tolerance *= Limits::fall_of_doubtful;
     } else {
       const double allowed = goal.allowed_error(found.x, found.nu);
       if (found.error <= allowed && fits(found, goal)) return found;
-      tolerance = std::max(tolerances::finest, tolerance * std::clamp(0.5 * allowed / found.error, 0.03, 0.5));
+      tolerance = std::max(limits::Every::finest, tolerance * std::clamp(Limits::below_allowed * allowed / found.error,
+                                                                         Limits::most_fall, Limits::least_fall));
     }
     start = std::move(found);
   }

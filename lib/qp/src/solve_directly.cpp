@@ -12,14 +12,6 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr double rounding_of_direct = 1e-4;  // of the energy norm: error that a direct solution may leave
-constexpr int most_corrections = 4;          // of what the matrix differs from A by, as long as each leaves
-constexpr double better = 0.3;               // times the defect before,
-constexpr double of_goal = 0.1;              // and more than so much of the residual that is asked for, or of
-constexpr double asked_at_least = 1e-6;      // for what is left makes states turn,
-constexpr double of_energy = 3e-5;           // or of the energy norm
-constexpr double outside = 1e-6;             // of x: part of it that may lie outside of Omega, or not balance the loads
-
 class DirectSolver : public Solver {
  public:
   DirectSolver(const Programme& programme, const Means& means)
@@ -47,7 +39,7 @@ class DirectSolver : public Solver {
     }
     if (!found.converged) return known;  // a guess of states that are none leads faces astray
     if (!accepted) accepted = improve(problem, found, goal);
-    if (goal.allowed_error) goal.exact = rounding_of_direct;
+    if (goal.allowed_error) goal.exact = Limits::rounding_of_direct;
     if (found.reaction) known.by_matrices = found;
     Solution solution(found.x, found.x, found.nu);
     if (start) solution.hessian_norm = start->hessian_norm;
@@ -86,6 +78,8 @@ class DirectSolver : public Solver {
   ActiveSetPreconditioner* preconditioner() override { return matrices_.inverse.get(); }
 
  private:
+  using Limits = limits::Direct;
+
   struct ByMatrices {
     ExplicitProgramme::Result found;
     std::optional<Solution> accepted = {};  // the same, if it is judged and will do
@@ -160,7 +154,7 @@ class DirectSolver : public Solver {
     problem.equality.add_transpose(1, found.nu, defect);
     matrices_.inverse->apply(defect, error);
     result.error = std::sqrt(std::max(defect.dot(error), 0.0));
-    const double size = relative_size(problem, tolerances::finest);
+    const double size = relative_size(problem, limits::Every::finest);
     if (!(size > 0)) return {};
     result.projected_gradient = defect.norm2() / size;
     const auto& equality = problem.equality;
@@ -168,10 +162,10 @@ class DirectSolver : public Solver {
       result.equality = equality.norm(problem.right.e - equality.apply(found.x)) / forces;
     result.outer_iterations = 1;
     const double energy_norm = goal.energy_norm ? goal.energy_norm(found.x, found.nu) : size_of_x;
-    result.converged = result.error <= rounding_of_direct * energy_norm &&
-                       result.projected_gradient <= (goal.allowed_error ? Goal::largest_residual : goal.residual) &&
+    result.converged = result.error <= Limits::rounding_of_direct * energy_norm &&
+                       result.projected_gradient <= (goal.allowed_error ? limits::Every::largest_residual : goal.residual) &&
                        obeys(problem, found.x) &&
-                       (!goal.incompatibility || goal.incompatibility(found.x, found.nu) <= Goal::nearly_compatible);
+                       (!goal.incompatibility || goal.incompatibility(found.x, found.nu) <= limits::Every::nearly_compatible);
     if (!result.converged) return {};
     return result;
   }
@@ -184,7 +178,7 @@ class DirectSolver : public Solver {
     beyond.update(-1, x, 1);
     const auto& equality = problem.equality;
     const double lacking = equality.size() > 0 ? equality.norm(problem.right.e - equality.apply(x)) : 0;
-    return std::hypot(beyond.norm2(), lacking) <= outside * x.norm2();
+    return std::hypot(beyond.norm2(), lacking) <= Limits::outside * x.norm2();
   }
 
   // With another matrix M in place of A a solution x leaves the defect A x - b + G'nu - s, s = M x - b + G'nu, which is (A - M)
@@ -193,7 +187,8 @@ class DirectSolver : public Solver {
   void correct(const Problem& problem, ExplicitProgramme::Result& found, const Goal& goal)
   {
     const auto& equality = problem.equality;
-    const double enough = of_goal * std::min(goal.residual, asked_at_least) * relative_size(problem, goal.residual);
+    const double enough =
+        Limits::of_goal * std::min(goal.residual, Limits::asked_at_least) * relative_size(problem, goal.residual);
     Vector linear(problem.right.b, Teuchos::Copy), defect(linear.getMap());
     Eigen::VectorXd right_side = problem.right.e;
     std::optional<ExplicitProgramme::Result> best;
@@ -207,12 +202,13 @@ class DirectSolver : public Solver {
       Vector felt(defect, Teuchos::Copy);
       equality.project(felt);
       const double size = felt.norm2();
-      const bool nearer = size < better * least;
+      const bool nearer = size < Limits::better * least;
       if (size < least) {
         least = size;
         best = found;
       }
-      if (!nearer || step == most_corrections || (size <= enough && is_nothing(felt, found, goal) && fits_together(found, goal)))
+      if (!nearer || step == Limits::most_corrections ||
+          (size <= enough && is_nothing(felt, found, goal) && fits_together(found, goal)))
         break;
       linear.update(-1, defect, 1);
       right_side += lacking;
@@ -229,13 +225,13 @@ class DirectSolver : public Solver {
     if (!goal.energy_norm) return true;
     Vector error(defect.getMap());
     matrices_.inverse->apply(defect, error);
-    return std::sqrt(std::max(defect.dot(error), 0.0)) <= of_energy * goal.energy_norm(found.x, found.nu);
+    return std::sqrt(std::max(defect.dot(error), 0.0)) <= Limits::of_energy * goal.energy_norm(found.x, found.nu);
   }
 
   // Energy feels little of what is soft, as plates are along themselves.
   static bool fits_together(const ExplicitProgramme::Result& found, const Goal& goal)
   {
-    return !goal.incompatibility || goal.incompatibility(found.x, found.nu) <= Goal::compatible;
+    return !goal.incompatibility || goal.incompatibility(found.x, found.nu) <= limits::Every::compatible;
   }
 
   Programme programme_;

@@ -12,27 +12,9 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr int max_guesses = 15;        // at one softness, and so many
-constexpr int max_last_guesses = 60;   // once it is none: forces that hardly count settle late;
-constexpr int idle_before_single = 4;  // guesses that have not brought fewer changes: from then on one place changes at a time,
-constexpr int idle_single = 30;        // for so many more,
-constexpr int max_single_guesses = 300;
-constexpr double few_changes = 0.02;       // of all constraints, or so few,
-constexpr double handful = 8;              // or so few in all
-constexpr double nearly_right = 0.1;       // the same of states that another way has come to
-constexpr int max_turns = 3;               // of the slip at a point; then it sticks before it turns
-constexpr double other_loads = 1e-3;       // residual over x of a solution before
-constexpr int most_polishing = 4;          // guesses more, as long as they make the residual smaller
-constexpr double stalled = 0.5;            // of the residual before: what rounding has left of it,
-constexpr double rounded_residual = 1e-6;  // over x, which is no more than this, or than so many times
-constexpr double roundings = 1e4;          // what rounding makes of W x,
-constexpr int idle = 8;                    // and so many guesses have not brought fewer changes
-constexpr int solved_again = 3;            // guesses that solve the problem, whatever states the next one takes
-constexpr double same_step = 1e-6;         // of motions that go on for ever
-constexpr double way_out = 0.05;           // of the slip, that a motion may open contact by and still be a slide
-constexpr double residual_of_soft = 0.1;   // over x: what a soft contact is good for, it gives states to begin with
-constexpr double worse = 3;                // times the residual before: such a step is shortened,
-constexpr int halvings = 6;                // so often at most
+constexpr int max_turns = 3;  // of the slip at a point; then it sticks before it turns
+constexpr double worse = 3;   // times the residual before: such a step is shortened,
+constexpr int halvings = 6;   // so often at most
 
 using Eigen::VectorXd;
 
@@ -76,11 +58,11 @@ bool StateSearch::from(const VectorXd& x, const VectorXd& nu, const VectorXd& re
     begin(false);
     return from_guessed_states();
   }
-  const bool same_loads = programme_.residual(x, nu) <= other_loads * programme_.size(x);
+  const bool same_loads = programme_.residual(x, nu) <= Limits::other_loads * programme_.size(x);
   begin(!same_loads);
-  if (guess(look_back_at_first)) return true;
+  if (guess(Limits::look_back_at_first)) return true;
   begin(same_loads);
-  return guess(look_back_at_first);
+  return guess(Limits::look_back_at_first);
 }
 
 // Guesses from states that another way has come to. If the first changes many of them, that way knew nothing.
@@ -93,8 +75,8 @@ bool StateSearch::from_guessed_states()
     auto next = programme_.states(point_.x, point_.nu);
     const int changes = compare(states_, next, turns);
     states_ = std::move(next);
-    return changes <= nearly_right * static_cast<double>(states_.closed.size() + states_.kind.size()) &&
-           guess(look_back_at_first);
+    return changes <= Limits::nearly_right * static_cast<double>(states_.closed.size() + states_.kind.size()) &&
+           guess(Limits::look_back_at_first);
   } catch (const Error& error) {
     if (error.status() != ExitStatus::not_converged) throw;
     return false;
@@ -111,9 +93,10 @@ bool StateSearch::from_guessed_states()
 bool StateSearch::guess(int look_back)
 {
   std::vector<int> turns(states_.kind.size(), 0), history;
-  const double few = std::max(few_changes * static_cast<double>(states_.closed.size() + states_.kind.size()), handful);
-  int guesses = look_back > 0 || programme_.softness() > 0 ? max_guesses : max_last_guesses;
-  const int most = std::min(max_single_guesses, affordable_guesses());
+  const double few =
+      std::max(Limits::few_changes * static_cast<double>(states_.closed.size() + states_.kind.size()), Limits::handful);
+  int guesses = look_back > 0 || programme_.softness() > 0 ? Limits::most_guesses : Limits::most_last_guesses;
+  const int most = std::min(Limits::most_single_guesses, affordable_guesses());
   int fewest = INT_MAX, fewest_at = 0, solutions = 0;
   double before = 0, least = 0;
   VectorXd best_x, best_nu, last_step;
@@ -134,18 +117,18 @@ bool StateSearch::guess(int look_back)
     const int changes = compare(states_, next, turns);
     if (changes < fewest) fewest = changes, fewest_at = step;
     const bool single = look_back == to_the_end && programme_.softness() == 0 && changes > 1 && changes <= few &&
-                        step - fewest_at >= idle_before_single;
+                        step - fewest_at >= Limits::idle_before_single;
     if (single) programme_.keep_one_change(states_, next);
-    if (single && step + 1 == guesses && step - fewest_at < idle_single && guesses < most) ++guesses;
+    if (single && step + 1 == guesses && step - fewest_at < Limits::idle_single && guesses < most) ++guesses;
     states_ = std::move(next);
-    const bool stands = residual > stalled * before;
-    const bool rounded = stands && residual <= roundings * programme_.rounding(point_.x, point_.nu);
-    const bool small = residual <= settled_residual * size || (stands && residual <= rounded_residual * size) || rounded;
+    const bool stands = residual > Limits::stalled * before;
+    const bool rounded = stands && residual <= Limits::roundings * programme_.rounding(point_.x, point_.nu);
+    const bool small = residual <= Limits::settled * size || (stands && residual <= Limits::rounded_residual * size) || rounded;
     // Where no force is left, as of a joint that is loosened, states are rounding, and change for ever.
-    solutions += residual <= settled_residual * size ? 1 : 0;
+    solutions += residual <= Limits::settled * size ? 1 : 0;
     const bool turns_on_rounding =
-        residual <= flutter * size || (rounded && step - fewest_at >= idle) || solutions >= solved_again;
-    point_.settled = residual <= flutter * size || (changes == 0 && (rounded || residual <= settled_residual * size));
+        residual <= Limits::flutter * size || (rounded && step - fewest_at >= Limits::idle) || solutions >= Limits::solved_again;
+    point_.settled = residual <= Limits::flutter * size || (changes == 0 && (rounded || residual <= Limits::settled * size));
     if (residual < least || step == 0) {
       least = residual;
       best_x = point_.x, best_nu = point_.nu;
@@ -154,8 +137,8 @@ bool StateSearch::guess(int look_back)
       if (!point_.settled) point_.x = std::move(best_x), point_.nu = std::move(best_nu);
       return true;
     }
-    if (changes == 0 && residual <= settled_residual * size) return true;
-    if (programme_.softness() > 0 && changes <= few && residual <= residual_of_soft * size) return true;
+    if (changes == 0 && residual <= Limits::settled * size) return true;
+    if (programme_.softness() > 0 && changes <= few && residual <= Limits::residual_of_soft * size) return true;
     VectorXd nu_step = point_.nu - nu_before;
     if (changes == 0 && !small && is_unbounded(nu_step, last_step)) {
       unbounded_ = true;
@@ -188,7 +171,7 @@ void StateSearch::shorten(const VectorXd& x_before, const VectorXd& nu_before)
 // Whether motions go on by the same step for ever while forces stay what they are, and friction resists that.
 bool StateSearch::is_unbounded(const VectorXd& step, const VectorXd& last_step) const
 {
-  return last_step.size() == step.size() && (step - last_step).norm() <= same_step * step.norm() &&
+  return last_step.size() == step.size() && (step - last_step).norm() <= Limits::same_step * step.norm() &&
          programme_.friction_power(point_.x, step) > 0;
 }
 
@@ -197,15 +180,15 @@ bool StateSearch::is_unbounded(const VectorXd& step, const VectorXd& last_step) 
 bool StateSearch::slides()
 {
   point_.slides =
-      unbounded_ && programme_.softness() == 0 && programme_.opening(last_step_) <= way_out * programme_.slip(last_step_);
+      unbounded_ && programme_.softness() == 0 && programme_.opening(last_step_) <= Limits::way_out * programme_.slip(last_step_);
   return point_.slides;
 }
 
 void StateSearch::polish()
 {
-  for (int step = 0; step < most_polishing; ++step) {
+  for (int step = 0; step < Limits::most_polishing; ++step) {
     const double before = off();
-    if (before <= flutter) return;
+    if (before <= Limits::flutter) return;
     const VectorXd x = point_.x, nu = point_.nu;
     programme_.solve(states_, point_.x, point_.nu);
     if (off() <= before) {

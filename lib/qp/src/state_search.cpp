@@ -13,33 +13,12 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr int look_back_on_path = 1;             // see guess()
-constexpr double softest = 0.1;                  // of what a point gives way together with all others
-constexpr double hardest = 1e-4;                 // softness that is as good as none
-constexpr double stride = 0.1;                   // from one softness to the next
-constexpr double least_stride = 0.8;             // as slow as it gets,
-constexpr double largest_stride = 1e-4;          // and as fast, where
-constexpr int at_once = 2;                       // guesses were enough
-constexpr int most_on_path = 100;                // linear problems along the central path,
-constexpr int stuck_on_path = 12;                // the last of so many must have halved tau, or what equations lack
-constexpr double path_near = 1e-3;               // residual over x from which on guesses are tried from the path,
-constexpr double path_nearer = 0.1;              // and of what it was then, to try again
-constexpr Eigen::Index few_unknowns = 2000;      // up to which a factor of W takes a moment; beyond, as long as many guesses,
-constexpr int guesses_of_path = 60;              // and a path of them as long as so many
-constexpr Eigen::Index few_motions = 5000;       // up to which a sparse factor takes a moment
-constexpr double soft_for_large_ones = 1e5;      // beyond, these take fewer steps along a path than strides to hardness
-constexpr double most_operations = 3e12;         // of factors that a last search may take
-constexpr Eigen::Index very_few_unknowns = 800;  // up to which steps of other lengths are tried: hundreds of guesses
-constexpr int patience_with_radii = 6;           // radii in a row without a residual that is so much,
-constexpr int patience_with_costly_radii = 1;    // with sparse matrices
-constexpr double nearer = 0.7;                   // of the least before
-constexpr double end_of_path = 1e-13;            // of the first product,
-constexpr double end_of_rough_path = 1e-7;       // where guesses go on from it,
-constexpr double worth_a_guess = 0.1;            // if the residual over x is so small
-constexpr double end_of_costly_path = 1e-7;      // residual over x where guesses do not end it, and are all there is
-constexpr double settled_on_path = 1e-9;         // residual over x at which radii are those of the forces,
-constexpr double rounded_on_path = 1e-7;         // or no better,
-constexpr int in_vain = 2;                       // with so many radii in a row
+constexpr double softest = 0.1;          // of what a point gives way together with all others
+constexpr double hardest = 1e-4;         // softness that is as good as none
+constexpr double stride = 0.1;           // from one softness to the next
+constexpr double least_stride = 0.8;     // as slow as it gets,
+constexpr double largest_stride = 1e-4;  // and as fast, where
+constexpr int at_once = 2;               // guesses were enough
 
 using Eigen::VectorXd;
 
@@ -60,7 +39,7 @@ bool StateSearch::from_anywhere()
 {
   if (!sparing_) return find_patiently();
   const bool found = find_sparingly();
-  if (!patient_ || programme_.motions() > few_motions || (found && point_.settled)) return found;
+  if (!patient_ || programme_.motions() > Limits::few_motions || (found && point_.settled)) return found;
   // States that rounding decides, or none: as with small dense matrices.
   const auto point = point_;
   const auto states = states_;
@@ -78,15 +57,16 @@ bool StateSearch::from_anywhere()
 
 bool StateSearch::find_patiently()
 {
-  if (guess(look_back_at_first)) return true;
+  if (guess(Limits::look_back_at_first)) return true;
   if (programme_.unknowns() == 0 || slides()) return false;
-  const bool small = programme_.unknowns() <= few_unknowns, very_small = programme_.unknowns() <= very_few_unknowns;
-  const bool near_enough = small || softest_ <= soft_for_large_ones;
+  const bool small = programme_.unknowns() <= Limits::few_unknowns,
+             very_small = programme_.unknowns() <= Limits::very_few_unknowns;
+  const bool near_enough = small || softest_ <= Limits::soft_for_large_ones;
   const bool costly = programme_.system().costly();
-  if (near_enough && harden(small ? INT_MAX : guesses_of_path, 1)) return true;
+  if (near_enough && harden(small ? INT_MAX : Limits::guesses_of_path, 1)) return true;
   if (point_.slides) return false;
   if (follow_path() || (small && repeat_paths()) || (very_small && change_steps())) return true;
-  return harden(small && !costly ? affordable_guesses() : guesses_of_path, INT_MAX);
+  return harden(small && !costly ? affordable_guesses() : Limits::guesses_of_path, INT_MAX);
 }
 
 // By few factors, or a singular one.
@@ -104,7 +84,7 @@ bool StateSearch::find_sparingly()
 int StateSearch::affordable_guesses() const
 {
   const auto n = static_cast<double>(programme_.unknowns());
-  return static_cast<int>(std::min(most_operations / (2 * n * n * n / 3), 1e4));
+  return static_cast<int>(std::min(Limits::most_operations / (2 * n * n * n / 3), 1e4));
 }
 
 // Guesses from a soft contact on, which becomes harder as fast as they converge, and slower where they do not; until they are
@@ -165,11 +145,12 @@ bool StateSearch::walk(CentralPath& path, double last, const Visit& is_end)
     return 2 * now.product <= before.product || (2 * now.forces <= before.forces && 2 * now.motions <= before.motions);
   };
   std::vector<CentralPath::Distance> points{path.distance()};
-  while (static_cast<int>(points.size()) < most_on_path && points.back().product > last * points[0].product && path.advance()) {
+  while (static_cast<int>(points.size()) < Limits::most_on_path && points.back().product > last * points[0].product &&
+         path.advance()) {
     if (is_end()) return true;
     points.push_back(path.distance());
     const auto count = points.size();
-    if (count > stuck_on_path && !halved(points.back(), points[count - 1 - stuck_on_path])) break;
+    if (count > Limits::stuck_on_path && !halved(points.back(), points[count - 1 - Limits::stuck_on_path])) break;
   }
   return false;
 }
@@ -180,21 +161,21 @@ bool StateSearch::follow_path()
   start_soft();
   auto path = programme_.path_from(point_.x, point_.nu);
   const bool costly = sparing_;
-  double wanted = costly ? path_nearer * path_near : path_near;
+  double wanted = costly ? Limits::path_nearer * Limits::path_near : Limits::path_near;
   const bool ended = walk(path, 0, [&] {
     ++point_.steps;
     const double now = programme_.residual(path.x(), path.nu()) / programme_.size(path.x());
     if (!(now <= wanted)) return false;
-    wanted = path_nearer * now;
+    wanted = Limits::path_nearer * now;
     point_.x = path.x(), point_.nu = path.nu();
     states_ = programme_.states(point_.x, point_.nu);
-    return guess(now <= settled_residual ? to_the_end : costly ? look_back_at_first : look_back_on_path);
+    return guess(now <= Limits::settled ? to_the_end : costly ? Limits::look_back_at_first : Limits::look_back_on_path);
   });
   if (ended || !costly) return ended;
   point_.x = path.x(), point_.nu = path.nu();
   states_ = programme_.states(point_.x, point_.nu);
-  point_.settled = off() <= flutter;
-  return off() <= end_of_costly_path;
+  point_.settled = off() <= Limits::flutter;
+  return off() <= Limits::end_of_costly_path;
 }
 
 // Coulomb's law by radii that are given, those of the normal forces before: each of these programmes is convex, so its path leads
@@ -204,11 +185,11 @@ bool StateSearch::repeat_paths()
   if (!programme_.follows()) return false;
   const bool costly = sparing_;
   start_soft();
-  double best = std::numeric_limits<double>::infinity(), wanted = costly ? worth_a_guess : path_near;
+  double best = std::numeric_limits<double>::infinity(), wanted = costly ? Limits::worth_a_guess : Limits::path_near;
   VectorXd nearest_x, nearest_nu;
-  for (int since_best = 0; since_best < (costly ? patience_with_costly_radii : patience_with_radii);) {
+  for (int since_best = 0; since_best < (costly ? Limits::patience_with_costly_radii : Limits::patience_with_radii);) {
     auto path = programme_.path_with_radii(point_.x, point_.nu);
-    walk(path, costly ? end_of_rough_path : end_of_path, [&] {
+    walk(path, costly ? Limits::end_of_rough_path : Limits::end_of_path, [&] {
       ++point_.steps;
       return false;
     });
@@ -216,16 +197,16 @@ bool StateSearch::repeat_paths()
     const double now = off();
     if (!std::isfinite(now)) return false;
     states_ = programme_.states(point_.x, point_.nu);
-    point_.settled = now <= flutter;
-    if (now <= settled_on_path) return true;
+    point_.settled = now <= Limits::flutter;
+    if (now <= Limits::settled_on_path) return true;
     if (now <= wanted) {
-      if (guess(look_back_at_first)) return true;
+      if (guess(Limits::look_back_at_first)) return true;
       point_.x = path.x(), point_.nu = path.nu();
-      if (!costly) wanted = path_nearer * now;
+      if (!costly) wanted = Limits::path_nearer * now;
     }
-    since_best = now < nearer * best ? 0 : since_best + 1;
+    since_best = now < Limits::nearer * best ? 0 : since_best + 1;
     if (now < best) best = now, nearest_x = point_.x, nearest_nu = point_.nu;
-    if (best > rounded_on_path || since_best < in_vain) continue;
+    if (best > Limits::rounded_on_path || since_best < Limits::in_vain) continue;
     point_.x = std::move(nearest_x), point_.nu = std::move(nearest_nu);
     point_.settled = false;
     states_ = programme_.states(point_.x, point_.nu);

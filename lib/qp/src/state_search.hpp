@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "condensed_programme.hpp"
+#include "qp/limits.hpp"
 
 namespace mortise::qp {
 
@@ -26,9 +27,8 @@ class StateSearch {
   Eigen::VectorXd reaction() const { return programme_.gradient(point_.x, point_.nu); }
 
  private:
-  static constexpr int look_back_at_first = 4;  // guesses that must have halved changes, if these are more than a few
-  static constexpr int to_the_end = 0;          // no such look back
-  static constexpr double settled_residual = 1e-10, flutter = 1e-12;  // over x: solved; and guesses differ by rounding alone
+  using Limits = limits::States;
+  static constexpr int to_the_end = 0;  // no such look back
 
   // The hardest of the soft contacts that have converged.
   struct Soft {

@@ -46,7 +46,7 @@ TEST(Budget, EndsWhereNothingBecomesBetter)
   budget.start({});
   products.take(1000);
   budget.note(at(1e-2), {}, 1);
-  products.take(Budget::stretch - 1);
+  products.take(limits::Budget::stretch - 1);
   budget.note(at(0.8e-2), {}, 1);  // next to nothing
   EXPECT_FALSE(products.hessian.exhausted());
   products.take(1);
@@ -62,20 +62,20 @@ TEST(Budget, FewerChangesOrASmallerErrorAreBetter)
   Products products;
   Budget budget(products.hessian, {}, false);
   budget.note(at(1e-2), 20, 1);
-  products.take(Budget::stretch * 3 / 4);
+  products.take(limits::Budget::stretch * 3 / 4);
   budget.note(at(1), 19, 1);
-  products.take(Budget::stretch * 3 / 4);
+  products.take(limits::Budget::stretch * 3 / 4);
   EXPECT_FALSE(products.hessian.exhausted());
   auto progress = at(1);
   progress.error = 0.1;
   budget.note(progress, 19, 1);
-  products.take(Budget::stretch * 3 / 4);
+  products.take(limits::Budget::stretch * 3 / 4);
   EXPECT_FALSE(products.hessian.exhausted());
   budget.note(at(1), 19, 0.4);
-  products.take(Budget::stretch * 3 / 4);
+  products.take(limits::Budget::stretch * 3 / 4);
   EXPECT_FALSE(products.hessian.exhausted());
   budget.note(at(1), 19, 0.4);
-  products.take(Budget::stretch / 4);
+  products.take(limits::Budget::stretch / 4);
   EXPECT_TRUE(products.hessian.exhausted());
 }
 
@@ -84,7 +84,7 @@ TEST(Budget, NeverGoesBeyondItsEndWhateverBecomesBetter)
   Products products;
   Budget budget(products.hessian, {}, false);
   double residual = 1;
-  for (int i = 0; i < Budget::most / 1000; ++i) {
+  for (int i = 0; i < limits::Budget::most / 1000; ++i) {
     EXPECT_FALSE(products.hessian.exhausted());
     products.take(1000);
     budget.note(at(residual *= 0.4), {}, 1);
@@ -111,7 +111,7 @@ TEST(Budget, ASteadyAlgorithmGoesToItsEndAndPatienceEndsSooner)
 {
   Products products;
   Budget steady(products.hessian, {}, true);
-  products.take(Budget::most - 1);
+  products.take(limits::Budget::most - 1);
   EXPECT_FALSE(products.hessian.exhausted());
   products.take(1);
   EXPECT_TRUE(products.hessian.exhausted());
@@ -150,7 +150,7 @@ TEST(Budget, GivesUpWhereTheEndIsFurtherThanItsPatienceReaches)
     Budget budget(products.hessian, {}, false);
     budget.start(2000, 1e-6);
     double residual = 1;
-    for (int spent = 0; spent < Budget::look; spent += 10) {
+    for (int spent = 0; spent < limits::Budget::look; spent += 10) {
       EXPECT_FALSE(products.hessian.exhausted());
       budget.note(at(residual), {}, 1);
       products.take(10);
@@ -186,7 +186,7 @@ TEST(Budget, GivesUpWhereNothingBecomesBetterAndSomethingElseIsReady)
   budget.note(at(1), {}, 1);
   products.take(80);
   budget.note(at(1e-3), {}, 1);
-  products.take(Budget::look - 1);
+  products.take(limits::Budget::look - 1);
   budget.note(at(0.9e-3), {}, 1);
   EXPECT_FALSE(products.hessian.exhausted());
   products.take(1);
@@ -198,9 +198,9 @@ TEST(Budget, StepsWithoutAResidualTellNothing)
   Products products;
   Budget budget(products.hessian, {}, false);
   budget.note(Progress{"norm"}, {}, 1);
-  products.take(Budget::stretch - 1);
+  products.take(limits::Budget::stretch - 1);
   budget.note(at(1e-2), {}, 1);
-  products.take(Budget::stretch - 1);
+  products.take(limits::Budget::stretch - 1);
   EXPECT_FALSE(products.hessian.exhausted());
 }
 

@@ -6,6 +6,7 @@
 #include "analysis/assembly.hpp"
 #include "constraint/constraints.hpp"
 #include "qp/budget.hpp"
+#include "qp/limits.hpp"
 
 namespace mortise::analysis {
 
@@ -16,8 +17,8 @@ struct DirectEffort {
   double bytes = 0;        ///< of memory, at most, on the rank that needs most
   bool sparse = false;     ///< by sparse matrices, whose size hardly depends on the number of multipliers
 
-  static constexpr Global most_multipliers = 12000;  ///< with dense ones
-  bool too_many() const { return !sparse && multipliers > most_multipliers; }
+  /// With dense matrices.
+  bool too_many() const { return !sparse && multipliers > qp::limits::Automatic::most_multipliers; }
 };
 
 /// What a direct solution costs, from the sizes of the present factors and the laws of nested dissection and an order of the

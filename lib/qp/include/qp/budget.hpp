@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "qp/limits.hpp"
 #include "qp/problem.hpp"
 
 namespace mortise::qp {
@@ -19,20 +20,17 @@ struct Patience {
 };
 
 /// Watches a Hessian and sets its limit. That is a number that is given, for all solves together; else each solve goes on as long
-/// as something becomes better by 30 % within `stretch` products: the residual, the bound of the error in the energy norm, the
-/// change of the slip bounds; or fewer points than ever change their state in a step. (Of random decks that ended well by
-/// products alone the worst went 1,200 products without.)
+/// as something becomes better by 30 % within Limits::stretch products: the residual, the bound of the error in the energy norm,
+/// the change of the slip bounds; or fewer points than ever change their state in a step.
 ///
-/// A solve with a patience gives up sooner: from `look` products on, if at the pace of its residuals it would take more than its
-/// patience, and where nothing has become better for `look` products.
+/// A solve with a patience gives up sooner: from Limits::look products on, if at the pace of its residuals it would take more
+/// than its patience, and where nothing has become better for so many.
 class Budget {
  public:
-  static constexpr int stretch = 2500;  ///< products without anything better that end a solve
-  static constexpr int most = 10000;    ///< of one solve, whatever becomes better
-  static constexpr int look = 100;      ///< products that tell whether to go on where something else is ready
+  using Limits = limits::Budget;
 
   /// `hessian` outlives it. `given`: the number, if there is one. `steady`: for an algorithm whose residual may rise for long:
-  /// then nothing but `most` ends it.
+  /// then nothing but Limits::most ends it.
   Budget(Hessian& hessian, std::optional<int> given, bool steady);
 
   /// Before a solve to the relative residual `goal`, which gives up when its `patience` ends, if it has one.

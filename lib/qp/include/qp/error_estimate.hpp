@@ -27,8 +27,8 @@ double rounding_of_error(const Vector& b, double norm);
 /// and for infinite errors, which are those of points that stick without a limit for want of slip bounds. Collective.
 bool believable(double error, double rounding, const Vector& x, const Eigen::VectorXd& nu, const Goal& goal, bool finest = false);
 
-/// Whether a solution whose error is small enough has a residual that goes with that: below Goal::largest_residual, or with a
-/// believable error beside it. Collective.
+/// Whether a solution whose error is small enough has a residual that goes with that: below
+/// limits::Every::largest_residual, or with a believable error beside it. Collective.
 bool fits(const Solution& solution, const Goal& goal);
 
 }  // namespace mortise::qp

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "qp/active_set.hpp"
+#include "qp/limits.hpp"
 #include "qp/problem.hpp"
 #include "qp/slip_law.hpp"
 #include "qp/solution.hpp"
@@ -27,13 +28,14 @@ class FaceNewton {
                  const std::optional<Solution>& start, const Goal& goal, const Observer& observer);
 
  private:
+  using Limits = limits::FaceNewton;
+
   struct Pair {
     Vector direction, product, image;  // product: A direction, image: P (A + Sigma) direction
     double energy;                     // direction . image
     bool step;                         // of a descent, and so of use to the preconditioner; else that of a projection
   };
-  static constexpr double step_length = 2.0;      // of the gradient step that picks the active set, over ||P A P||
-  static constexpr double inner_reduction = 0.2;  // of the projected gradient on one active set
+  static constexpr double step_length = 2.0;  // of the gradient step that picks the active set, over ||P A P||
 
   struct State {
     explicit State(const Teuchos::RCP<const Map>& map) : z(map), g(map), y(map), gy(map) {}

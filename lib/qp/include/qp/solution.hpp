@@ -5,16 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "qp/limits.hpp"
 #include "qp/problem.hpp"
 
 namespace mortise::qp {
-
-/// Residuals over ||P b||.
-namespace tolerances {
-inline constexpr double loosest = 1e-2;    ///< of a problem whose solution only leads to the next one
-inline constexpr double finest = 1e-7;     ///< enough where no error is allowed
-inline constexpr double rounding = 1e-12;  ///< below which there is nothing to gain
-}  // namespace tolerances
 
 /// When a solve may stop.
 struct Goal {
@@ -44,16 +38,15 @@ struct Goal {
   /// Part of the energy norm. An error below it ends face Newton whatever the residual: for a start from a direct solution.
   double exact = 0;
 
-  /// How large `incompatibility` may be; where going on did not make the residual smaller; and where `exact` is given.
-  static constexpr double compatible = 1e-3, nearly_compatible = 1e-2, exactly_compatible = 1e-5;
-  /// The residual up to which an estimated error that is good enough ends a solve. Beyond it the error has to be small itself.
-  static constexpr double largest_residual = 0.4;
-  /// Part of the energy norm that the error may be for a small residual to count as a solution: a condition of 100, no less than
-  /// 1e-4. Displacements of what bends, and peaks of pressure, are off by some ten times as much. More where the residual is
-  /// `rounding`, so that nothing can make the error smaller.
+  /// Part of the energy norm that the error may be for a small residual to count as a solution. Displacements of what bends, and
+  /// peaks of pressure, are off by some ten times as much. More where the residual is `rounding`, so that nothing can make the
+  /// error smaller.
   double credible(bool rounding = false) const
   {
-    return allowed_error || rounding ? 1e-2 : std::max(std::min(std::sqrt(residual), 100 * residual), 1e-4);
+    using Every = limits::Every;
+    return allowed_error || rounding
+               ? Every::most_credible
+               : std::max(std::min(std::sqrt(residual), Every::condition * residual), Every::least_credible);
   }
 };
 

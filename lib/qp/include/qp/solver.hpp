@@ -96,7 +96,7 @@ class Solver {
   virtual ActiveSetPreconditioner* preconditioner() = 0;
 };
 
-/// One row of the table.
+/// One row of the table. Its tolerances and limits, and where another row takes over, are the struct of its name in limits.hpp.
 struct SolverKind {
   std::string_view name;  ///< in the deck
   std::string_view help;
@@ -109,7 +109,7 @@ struct SolverKind {
   std::unique_ptr<Solver> (*make)(const Programme& programme, const Means& means) = nullptr;
 };
 
-/// The table. To add a solver: a file with the function that makes it, and a row.
+/// The table. To add a solver: a file with the function that makes it, and a row with its limits.
 std::span<const SolverKind> solvers();
 
 /// The row of a name in the deck; for `auto` the first one.
