@@ -174,6 +174,23 @@ std::vector<char> tied_past_the_border(const Side& secondary, CutFaces& faces, s
 
 }  // namespace
 
+std::vector<char> nodes_of_both_sides(const Side& secondary, const SurfaceNodes& surface_nodes, const Side& primary)
+{
+  const auto of_primary = [&](Local node) {
+    return std::ranges::binary_search(primary.node_id, secondary.node_id[static_cast<std::size_t>(node)]);
+  };
+  std::vector<char> result;
+  for (const auto& node : surface_nodes.all) result.push_back(of_primary(node.node) ? 1 : 0);
+  if (std::ranges::find(result, 1) == result.end()) return result;
+  for (std::size_t f = 0; f < secondary.faces.size(); ++f) {
+    const auto face = secondary.faces[f];
+    if (!std::ranges::all_of(face, of_primary)) continue;
+    for (std::size_t p = 0; p < result.size(); ++p)
+      if (std::ranges::find(face, surface_nodes.all[p].node) != face.end()) result[p] = 0;
+  }
+  return result;
+}
+
 std::vector<double> cover_of_nodes(CutFaces& faces, std::size_t count)
 {
   std::vector<double> cover(faces.places(), 0.0);

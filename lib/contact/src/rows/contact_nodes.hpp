@@ -35,13 +35,16 @@ struct BondedNodes {
   std::vector<char> met;
 };
 
+/// Of each surface node whether it is a node of the primary side as well, as at the tip of a slit; but none of a face that has no
+/// other nodes, for nobody is there to take over.
+std::vector<char> nodes_of_both_sides(const Side& secondary, const SurfaceNodes& surface_nodes, const Side& primary);
+
 /// The part of the faces round each of `count` surface nodes that is covered.
 std::vector<double> cover_of_nodes(CutFaces& faces, std::size_t count);
 
-/// `faces` in pieces, with their integrals. `one_node`: of each surface node whether it is a node of the primary side as well, as
-/// at the tip of a slit: it has no multiplier, since it cannot leave itself. `primary_prescribed`: of each surface node whether
-/// supports hold the primary side along the normal where multipliers stand; all of cuts of sectors. `bond`: none of a contact.
-/// `dimension`: 2 or 3.
+/// `faces` in pieces, with their integrals. `one_node`: nodes_of_both_sides(), which have no multiplier, since they cannot leave
+/// themselves; all zero of obstacles and cuts of sectors. `primary_prescribed`: of each surface node whether supports hold the
+/// primary side along the normal where multipliers stand; all of cuts of sectors. `bond`: none of a contact. `dimension`: 2 or 3.
 ContactNodes choose_contact_nodes(const Side& secondary, const SurfaceNodes& surface_nodes, CutFaces& faces,
                                   const SupportedNodes& supports, const std::vector<char>& one_node,
                                   const std::vector<char>& primary_prescribed, const std::optional<BondedNodes>& bond,

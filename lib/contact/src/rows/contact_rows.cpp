@@ -39,7 +39,8 @@ class ContactRows {
         writer_(s_.secondary, s_.primary, s_.supports, s_.primary_supports, s_.dimension, rotation_of(s_.options)),
         conflicts_(s_.secondary, s_.primary, writer_, s_.dimension),
         initial_gap_(gap),
-        on_both_sides_(nodes_of_both_sides()),
+        on_both_sides_(s_.options.cyclic || s_.options.obstacle ? std::vector<char>(s_.nodes.all.size(), 0)
+                                                                : nodes_of_both_sides(s_.secondary, s_.nodes, s_.primary)),
         ends_meet_(std::ranges::find(on_both_sides_, 1) != on_both_sides_.end()),
         chosen_(choose_contact_nodes(s_.secondary, s_.nodes, s_.faces, s_.supports, on_both_sides_, primary_prescribed(),
                                      bonded_nodes(others), s_.dimension))
@@ -120,23 +121,6 @@ class ContactRows {
   {
     const auto has = [&](const std::vector<Global>& nodes) { return std::ranges::binary_search(nodes, s_.node_of(p)); };
     return has(others.of_bonds) || (met && has(others.of_contacts));
-  }
-
-  // Of each surface node whether it is a node of the primary side as well, as at the tip of a slit; but none of a face that has
-  // no other nodes, for nobody is there to take over.
-  std::vector<char> nodes_of_both_sides() const
-  {
-    std::vector<char> result(s_.nodes.all.size(), 0);
-    if (options().cyclic || options().obstacle) return result;
-    for (std::size_t p = 0; p < result.size(); ++p) result[p] = writer_.on_both_sides(s_.nodes.all[p].node);
-    if (std::ranges::find(result, 1) == result.end()) return result;
-    for (std::size_t f = 0; f < s_.secondary.faces.size(); ++f) {
-      const auto face = s_.secondary.faces[f];
-      if (!std::ranges::all_of(face, [&](Local n) { return writer_.on_both_sides(n); })) continue;
-      for (std::size_t p = 0; p < result.size(); ++p)
-        if (std::ranges::find(face, s_.nodes.all[p].node) != face.end()) result[p] = 0;
-    }
-    return result;
   }
 
   // Contact may push along a part of a normal that supports leave free. What is bonded to an obstacle has nothing to ask for
