@@ -1,3 +1,4 @@
+// When a rigid motion counts as free.
 #pragma once
 
 namespace mortise::feti {

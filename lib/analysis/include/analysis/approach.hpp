@@ -43,7 +43,7 @@ struct Approach {
 
 /// The approach with its patience: with `auto` as many products as a direct solution costs, or few where subdomains are several
 /// times as large as usual and smaller ones are to be tried next. Where a direct solution takes long, products with whole bodies
-/// come before it. Throws Error(machine) if the deck asks for a direct solution
+/// come before it. The numbers are those of qp::limits::Automatic. Throws Error(machine) if the deck asks for a direct solution
 /// and there is no room for it. Collective.
 Approach with_patience(Approach approach, const Assembly& assembly, const constraint::Constraints& constraints,
                        const Communicator& comm);
@@ -68,9 +68,9 @@ using Attempt = std::function<Outcome(const partition::Decomposition&, const App
 /// Tries one approach after the other until one does not give up. First what the deck asks for on the decomposition `as_cut`.
 /// Where products with F find no end, large subdomains are cut into small pieces, since the coarse problem of many small ones
 /// knows how slender bodies bend; then bodies are taken whole, with products where a direct solution takes long, and solved
-/// directly; where rounding (cells a thousand times as long
-/// as thick) or memory spoils that, products with F go on to their limit. `resumed`: the approach that an earlier run came to,
-/// with which this one begins. Throws what the last attempt throws. Collective.
+/// directly; where rounding (cells a thousand times as long as thick) or memory spoils that, products with F go on to their
+/// limit. `resumed`: the approach that an earlier run came to, with which this one begins. Throws what the last attempt throws.
+/// Collective.
 ExitStatus try_approaches(const model::Deck& deck, const partition::Decomposition& as_cut, const Attempt& attempt,
                           const Context& context, const std::optional<Approach>& resumed = {});
 

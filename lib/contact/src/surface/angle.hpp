@@ -1,3 +1,4 @@
+// Angles between directions.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -8,7 +8,8 @@
 
 namespace mortise::feti {
 
-/// Of one problem. Keeps what the next question may want again.
+/// Of one problem: u = K^+ (f - B'lambda) - R nu of each subdomain of this rank, lengths. Keeps what the next question may want
+/// again.
 class Displacements {
  public:
   /// `product`: F as the solver of the problem has it. Both outlive this.

@@ -29,7 +29,7 @@ class FollowedRadii {
   FollowedRadii(const SlipLaw& law, FeasibleSet& set, const Communicator& comm);
   /// If `apply`, gives the set the radii that belong to the point x. Returns the norm of their change, made or not. Collective.
   double update(const Vector& x, bool apply);
-  /// Goes half way back to the radii before, because the updated ones leave no feasible point.
+  /// Goes half way back to the radii before, because the updated ones leave no feasible point: half_way_back().
   void retreat();
   bool cautious() const { return law_.cautious; }
 
