@@ -25,25 +25,43 @@ import h5py
 from runs import SHORT, SLOW, PLATES, LIMIT, MACHINE, INTERRUPTED, failures, expect, Run, judge_files, summary, identity, claims_success, judge_failure
 
 
+# One of each kind of file that a run can write.
+ALL_FILES = ["--set", "output.probes={peak: {largest: von_mises}, line: {from: [0.5, 0.5, 0], to: [0.5, 0.5, 2]}}",
+             "--set", "output.interior={points: [[0.5, 0.5, 0.5]], planes: {middle: {point: [0.5, 0.5, 0.5], normal: [0, 1, 0]}}}"]
+
+
+def written(options, scratch):
+    """{name: bytes} of all files that a run on one rank writes, those among them that are gone at its end."""
+    sizes, words, out = {}, scratch / "written.txt", scratch / "out"
+    run = Run(options, SHORT, out, arguments=ALL_FILES, environment={"LD_PRELOAD": options.full_disk, "FULL_DISK": f"{out}/", "FULL_DISK_LIST": str(words)})
+    expect(run.wait() == 0, f"listed: {run.said}")
+    for line in words.read_text().splitlines():
+        size, path = line.split(" ", 1)
+        if path.endswith(".part"):
+            name = pathlib.Path(path).name.removesuffix(".part")
+            sizes[name] = sizes.get(name, 0) + int(size)
+    left = {path.name for path in out.iterdir()}
+    expect(left <= sizes.keys(), f"files written where no full disk is played: {sorted(left - sizes.keys())}")
+    for kind in ("blocks.1.vtm", "probes.csv", "probe.line.csv", "interior.csv", "plane.middle.pvd", "restart.1.h5", "results.1.h5", "contact.pvd"):
+        expect(kind in sizes, f"no {kind} among the files: {sorted(sizes)}")
+    return sizes
+
+
 def disk_full(options, scratch):
-    """At each file, on one rank of several: exit status 4, the file and the cause are named, the directory can be used again."""
-    names = ["results.1.h5", "results.h5", "contact.pvd", "solution.2_{}.vtu", "solution.pvd", "history.csv", "deck.yaml", "summary.json"]
-    for ranks, victim, chosen in ((1, 0, names), (2, 1, ["results.1.h5", "contact.1_{}.vtu"]), (2, 0, ["solution.1.pvtu", "summary.json"]),
-                                  (3, 2, ["results.1.h5", "solution.2_{}.vtu"])):
-        for name in chosen:
-            name = name.format(victim)
-            if victim > 0 and name.endswith(".h5"):
-                name_of_file, after = name, 0
-            else:
-                name_of_file, after = name, 100
-            environment = {"LD_PRELOAD": options.full_disk, "FULL_DISK": f"/{name_of_file}.part", "FULL_DISK_RANK": str(victim),
-                           "FULL_DISK_AFTER": str(after)}
-            run = Run(options, SHORT, scratch / "out", ranks, environment=environment)
-            status = run.wait()
-            who = f"disk full at {name}, rank {victim} of {ranks}"
-            judge_failure(run, status, who, f"{name}: cannot be written")
-            expect("o space" in run.said, f"{who}: no cause:\n{run.said}")
-            expect(not (run.directory / "mortise.lock").exists(), f"{who}: the lock is left")
+    """At each file that a run writes, at its beginning, middle and near its end, and on one rank of several: exit status 4, the file and the cause
+    are named, the directory can be used again."""
+    runs = [(1, 0, name, after) for name, size in sorted(written(options, scratch).items()) for after in sorted({0, size // 2, size * 9 // 10})]
+    runs += [(2, 1, "results.1.h5", 0), (2, 1, "contact.1_1.vtu", 100), (2, 0, "solution.1.pvtu", 100), (2, 0, "summary.json", 100),
+             (3, 2, "results.1.h5", 0), (3, 2, "solution.2_2.vtu", 100)]
+    for ranks, victim, name, after in runs:
+        environment = {"LD_PRELOAD": options.full_disk, "FULL_DISK": f"/{name}.part", "FULL_DISK_RANK": str(victim), "FULL_DISK_AFTER": str(after)}
+        run = Run(options, SHORT, scratch / "out", ranks, arguments=ALL_FILES if ranks == 1 else (), environment=environment)
+        status = run.wait()
+        who = f"disk full at {name} after {after} bytes, rank {victim} of {ranks}"
+        judge_failure(run, status, who, f"{name}: cannot be written")
+        expect("o space" in run.said, f"{who}: no cause:\n{run.said}")
+        expect(not (run.directory / "mortise.lock").exists(), f"{who}: the lock is left")
+    print(f"{len(runs)} runs with a full disk", flush=True)
     # The kernel's own limit, at sizes that hit one file or the other.
     for size in (0, 3000, 20000):
         run = Run(options, SHORT, scratch / "out", prepare=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
