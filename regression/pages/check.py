@@ -8,9 +8,11 @@ Fails, with file and line, if
 - a README has more than 70 lines, about a page,
 - a relative link, or a path of the repository in backticks or in a code block, leads to nothing,
 - a table of files (first heading "file..." or "header...") names what does not exist, or that of a module of lib lacks one of its source
-  files. Of a module the table names stems: `clusters` stands for clusters.hpp and clusters.cpp, be they in include or in src.
+  files. Of a module the table names stems: `clusters` stands for clusters.hpp and clusters.cpp, be they in include or in src,
+- a kind of warning in the table of docs/design/warnings.md is among the `warnings` of no expected.json of regression.
 Results (`*.out`) need not exist. Exit status 1 if anything is found.
 """
+import json
 import pathlib
 import re
 import sys
@@ -113,6 +115,18 @@ def wrong_table(root, page, lines, kind):
         yield named[0][0], f"the table of files lacks {stem}"
 
 
+def untested_warnings(root, page, lines, kind):
+    """Kinds of warnings that no deck is expected to give."""
+    if page != root / "docs/design/warnings.md":
+        return
+    told = {word for path in (root / "regression").glob("*/*.expected.json") for word in json.loads(path.read_text()).get("warnings", [])}
+    for number, line in enumerate(lines, 1):
+        if kind[number - 1] == "table" and not line.startswith("| kind"):
+            for name in CODE_SPAN.findall(line.split("|")[1]):
+                if name not in told:
+                    yield number, f"no regression case expects the warning {name}"
+
+
 def complaints(root, page):
     lines = page.read_text(encoding="utf-8").splitlines()
     kind = kinds(lines)
@@ -121,6 +135,7 @@ def complaints(root, page):
         yield len(lines), f"{len(lines)} lines; a README has at most {LONGEST_README}"
     yield from dead_ends(root, page, lines, kind)
     yield from wrong_table(root, page, lines, kind)
+    yield from untested_warnings(root, page, lines, kind)
 
 
 def main():

@@ -49,6 +49,9 @@ mortise_regression(shaft_in_vee DIRECTORY must_fail RANKS 1 STUDY_RANKS 2 3)
 mortise_regression(shaft_in_vee VARIANT .first_order DIRECTORY must_fail RANKS 1 SET mesh.order=1 mesh.constants.n=36)
 mortise_regression(shaft_in_vee VARIANT .holds DIRECTORY must_fail RANKS 1 EXPECTED must_fail/shaft_in_vee.holds.expected.json
                    SET "loads[1].moment=[0, 0, 269.2]")
+# Pressed straight down it stays, and coarse facets push it aside, which is told.
+mortise_regression(ball_in_cup VARIANT .coarse DIRECTORY must_fail RANKS 1 STUDY_RANKS 2 EXPECTED must_fail/ball_in_cup.coarse.expected.json
+                   SET "loads=[{boundary: handle, force: [0, 0, -1000]}]" mesh.constants.size=4 solver.tolerance=1e-6)
 # With twice what friction holds: the ball turns until tilts of rounding wedge it.
 set(pushed "loads[0].force=[260, 0, -1000]" "contacts[0].friction={coulomb: 0.2}")
 mortise_regression(ball_in_cup VARIANT .friction DIRECTORY must_fail RANKS 2 STUDY_RANKS 1 SET ${pushed})
@@ -67,6 +70,9 @@ mortise_regression(pulled_plate VARIANT .no_clearance DIRECTORY must_fail RANKS 
 # A load on a curved face turns the plate a little by its facets; along the pin another one is exact all the same.
 mortise_regression(squeezed_on_pin VARIANT .pulled RANKS 1 STUDY_RANKS 2 EXPECTED must_fail/pulled_plate.expected.json
                    SET "loads=[{boundary: rim, force: [1000, 0, 0]}, {boundary: high, force: [0, 0, 0.2]}]")
+# So little of it is left out of the solution, which is told.
+mortise_regression(squeezed_on_pin VARIANT .little RANKS 1 EXPECTED cases/squeezed_on_pin.little.expected.json
+                   SET "loads=[{boundary: rim, force: [1000, 0, 0]}, {boundary: high, force: [0, 0, 0.02]}]")
 mortise_regression(pulled_plate VARIANT .other_side DIRECTORY must_fail RANKS 1 SET "contacts=[{secondary: shaft, primary: hole}]")
 mortise_regression(out_of_memory DIRECTORY must_fail RANKS 1)
 foreach(deck no_equilibrium_slide no_equilibrium_lift)

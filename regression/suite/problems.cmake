@@ -127,6 +127,7 @@ mortise_regression(feet_held_along VARIANT .swapped RANKS 1 EXPECTED cases/feet_
 mortise_regression(feet_held_along VARIANT .tresca RANKS 1 EXPECTED cases/feet_held_along.tresca.expected.json
                    SET "contacts[0].friction={tresca: 0.3}")
 mortise_regression(slit_tip RANKS 1 STUDY_RANKS 2 3)
+mortise_regression(folded_edge RANKS 1 STUDY_RANKS 2)
 mortise_regression(slit_of_one_face RANKS 1 STUDY_RANKS 2 3)
 mortise_regression(slit_of_one_face VARIANT .friction RANKS 2 SET "contacts[0].friction={coulomb: 0.3}")
 mortise_regression(slit_tip VARIANT .second_order RANKS 2 SET mesh.constants.order=2 "contacts[0].friction={coulomb: 0.3}")
