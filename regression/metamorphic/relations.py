@@ -1,4 +1,5 @@
-"""Changes of a model that must not change its answers, or change them in a known way: each returns (deck, {quantity: factor}, ranks)."""
+"""Changes of a model that must not change its answers, or change them in a known way: each returns (deck, {quantity: factor}, ranks). What a
+change lets be different stands in APART."""
 import copy
 
 import numpy as np
@@ -48,6 +49,17 @@ def smalse(random, deck):
     return deck, SAME, 1
 
 
+def direct(random, deck):
+    """The dual operator as a matrix; `auto` solves these small models by products."""
+    deck["solver"]["algorithm"] = "direct"
+    return deck, SAME, random.choice([1, 2])
+
+
+def face_newton(random, deck):
+    deck["solver"]["algorithm"] = "face_newton"
+    return deck, SAME, 1
+
+
 def preconditioner(random, deck):
     deck["solver"]["preconditioner"] = random.choice(["none", "dirichlet"])
     return deck, SAME, 1
@@ -68,6 +80,22 @@ def order_of_bodies(random, deck):
     for section in ("supports", "loads"):
         random.shuffle(deck[section])
     return deck, SAME, 1
+
+
+def order_of_contacts(random, deck):
+    if len(deck["contacts"]) < 2:
+        return None
+    deck["contacts"].reverse()
+    return deck, SAME, random.choice([1, 2])
+
+
+def exchanged(random, deck):
+    """The other side carries the multipliers, a turn to the next sector goes the other way: another discretization."""
+    for contact in deck["contacts"]:
+        contact["secondary"], contact["primary"] = contact["primary"], contact["secondary"]
+        if "cyclic" in contact:
+            contact["cyclic"] = {**contact["cyclic"], "axis": [-x for x in contact["cyclic"]["axis"]]}
+    return (deck, SAME, 1) if deck["contacts"] else None
 
 
 def units(random, deck):
@@ -118,7 +146,10 @@ def turned(random, deck):
     return deck, SAME, 1
 
 
-RELATIONS = [ranks2, ranks3, subdomains, small_subdomains, clusters, grid, smalse, preconditioner, order_of_bodies, units, turned]
+RELATIONS = [ranks2, ranks3, subdomains, small_subdomains, clusters, grid, smalse, direct, face_newton, preconditioner, order_of_bodies,
+             order_of_contacts, exchanged, units, turned]
+# Relative, in place of the tolerances of all answers: these answers alone are compared.
+APART = {exchanged: {"strain_energy": 1e-2}}
 
 
 def change(relation, random, deck):
