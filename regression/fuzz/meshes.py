@@ -3,6 +3,7 @@ sections."""
 import contextlib
 import ctypes
 import ctypes.util
+import math
 import os
 import pathlib
 import re
@@ -213,7 +214,8 @@ def mutate(random, data, others):
         if kind == "two numbers":
             other = random.choice(found)
             return data[:one.start()] + other[0] + data[one.end():]
-        value = random.choice(WORDS + [b"-" + one[0], one[0] + b"0", one[0] + b"1", str(int(float(one[0])) + random.choice([-1, 1])).encode()])
+        whole = float(one[0]) if math.isfinite(float(one[0])) else 0  # 1e999 is a number, too
+        value = random.choice(WORDS + [b"-" + one[0], one[0] + b"0", one[0] + b"1", str(int(whole) + random.choice([-1, 1])).encode()])
         return data[:one.start()] + value + data[one.end():]
     if kind in ("line", "section"):
         lines = data.split(b"\n")
