@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Faults of the machine: what a run does when the disk is full, memory is short, somebody ends it, or the directory is in use.
 
-    faults.py MORTISE CASE [--mpiexec MPIEXEC] [--full-disk LIBRARY] [--times N] [--seed N] [--short]
+    faults.py MORTISE CASE [--mpiexec MPIEXEC] [--full-disk LIBRARY] [--times N] [--seed N] [--short] [--write]
 
 CASE is the name of one of the functions below; each says what it expects. Common to all: a run ends within LIMIT seconds on all ranks, with
 an exit status from 0 to 4 and a cause, and what it leaves under a final name is whole. --short leaves out of `interrupted`, `interrupted_direct`
-and `resumed` what differs from another of their runs by the number of ranks alone.
+and `resumed` what differs from another of their runs by the number of ranks alone. --write puts what `kills` gave into README.md.
 """
 import argparse
+import collections
 import contextlib
 import os
 import pathlib
@@ -22,7 +23,9 @@ import time
 
 import h5py
 
-from runs import SHORT, SLOW, PLATES, LIMIT, MACHINE, INTERRUPTED, failures, expect, Run, judge_files, summary, identity, claims_success, judge_failure
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+import page_tables
+from runs import HERE, SHORT, SLOW, PLATES, LIMIT, MACHINE, INTERRUPTED, failures, expect, Run, judge_files, summary, identity, claims_success, judge_failure
 
 
 # One of each kind of file that a run can write.
@@ -234,6 +237,7 @@ def kills(options, scratch):
     start = time.monotonic()
     Run(options, SLOW, scratch / "whole", 2).wait()
     length = time.monotonic() - start
+    statuses = collections.Counter()
     for i in range(options.times):
         for ranks in (2, 3):
             number = choose.choice([signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGSEGV, signal.SIGINT, signal.SIGABRT])
@@ -247,6 +251,7 @@ def kills(options, scratch):
                     os.kill(choose.choice(victims), number)
             status = run.wait()
             print(f"{who} after {delay:.2f} s: exit status {status}", flush=True)
+            statuses[ranks, number.name if victims else "none", status] += 1
             expect(status is not None, f"{who} after {delay:.2f} s: hangs")
             if before and identity(run.directory / "summary.json") == before:  # of the run before: this one had not begun
                 expect(status != 0 and "Mortise" not in run.said, f"{who} after {delay:.2f} s: leaves an earlier summary.json\n{run.said}")
@@ -256,6 +261,12 @@ def kills(options, scratch):
                 expect(len(summary(run.directory)["steps"]) == 6, f"{who} after {delay:.2f} s: exit status {status}, summary.json claims success")
             if run.directory.exists():
                 judge_files(run.directory, who)
+    if options.write:
+        hung = sum(count for (_, _, status), count in statuses.items() if status is None)
+        ended = {name: sorted({str(status) for (_, other, status) in statuses if other == name}) for name in sorted({key[1] for key in statuses})}
+        told = "; ".join(f"{sum(n for key, n in statuses.items() if key[1] == name)} {name}: {', '.join(ended[name])}" for name in ended)
+        page_tables.write(HERE / "README.md", "kills", ["seed", "runs", "signals, and exit statuses of `mpirun`", "hang", "failures"],
+                          [[options.seed, sum(statuses.values()), told, hung, len(failures)]])
 
 
 def stale(options, scratch):
@@ -399,6 +410,7 @@ def main():
     parser.add_argument("--times", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--short", action="store_true")
+    parser.add_argument("--write", action="store_true")
     options = parser.parse_args()
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     with tempfile.TemporaryDirectory() as scratch:
