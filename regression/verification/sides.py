@@ -5,12 +5,14 @@ and with contacts that are found.
     sides.py MORTISE [model ...] [--quick | --suite] [--cells hex20 tet10 ...] [--laws frictionless coulomb] [--sizes 0 1 2] [--commands]
              [--write] [--ranks N] [--mpiexec MPIEXEC] [--list]
 
-A model may be a pattern. --quick solves a selection on the first meshes; --suite the same with cheaper cells for pin, rollers, ball and disc, and
-without `auto` for tipping blocks in space. Figures: the largest recovered pressure and the largest von Mises stress, both farther than `away`
-from the lines where the exact ones are infinite (edges pressed into a surface, clamped borders); the strain energy; forces. Required: the
-three solutions within 10 % of each other in stress and 2 % in energy on every mesh, forces to 1e-6; the last mesh near the reference, which
-is a much finer mesh's. Blocks loaded a fiftieth of a cell inside or beyond the edge they would tip about must stand or end with exit 3. Exit
-status 1 if a case fails. --commands prints how to run what failed; --quick --write puts the selection into results.md. Needs numpy.
+A model may be a pattern. --quick solves a selection on the first meshes; --suite the same with cheaper cells for pin, rollers, ball and
+disc, and without `auto` for tipping blocks in space, and a cheap cell of the last mesh for what is held against a reference. Figures: the
+largest recovered pressure and the largest von Mises stress, both farther than `away` from the lines where the exact ones are infinite
+(edges pressed into a surface, clamped borders); the strain energy; forces. Required: the three solutions within 10 % of each other in
+stress and 2 % in energy on every mesh, forces to 1e-6; the last mesh near the reference, which is a much finer mesh's. Blocks loaded a
+fiftieth of a cell inside or beyond the edge they would tip about must stand or end with exit 3. Exit status 1 if a case fails. --commands
+prints how to run what failed; --quick --write puts the selection into results.md, --sizes 0 --write and --sizes 2 --write a line for each
+model into sides.md: how far its solutions are apart, and from the reference. Needs numpy.
 """
 
 import argparse
@@ -245,6 +247,7 @@ def cases(arguments):
             for law in model.laws:
                 for size in range(len(model.sizes)):
                     quick = not arguments.quick or (size == 0 and (cell, law) in (model.suite if arguments.suite else model.quick))
+                    quick = quick or (arguments.suite and size + 1 == len(model.sizes) and (cell, law) in model.last)
                     if quick and wanted(cell, arguments.cells) and wanted(law, arguments.laws) and wanted(size, arguments.sizes):
                         yield model, cell, law, size
 
@@ -279,6 +282,38 @@ def table_rows(groups, tipped):
     return rows
 
 
+APART = ["model", "meshes", "cells", "runs", *(f"{name} apart" for name in list(LIMITS)[:3]), *(f"{name} from the reference" for name in FROM_REFERENCE),
+         "not judged", "failed"]
+
+
+def largest_of(found, form="{:.1f} %"):
+    """The largest of {(cell, law): part}, and where it is."""
+    if not found:
+        return "-"
+    where = max(found, key=found.get)
+    return f"{form.format(100 * found[where])} ({', '.join(where)})"
+
+
+def apart_rows(groups, size):
+    """A row a model, over its cells and laws: the largest differences between the solutions, as parts of the least, and from the reference."""
+    rows = []
+    for model in dict.fromkeys(key[0] for key in groups):
+        of_model = {(cell, law): case for (m, cell, law, _), case in groups.items() if m is model}
+        judged = {key: [run for run in runs if run.status == 0] for key, (runs, _) in of_model.items() if not runs[0].coarse}
+        values = lambda runs, name: [run.figures[name] for run in runs]
+        apart = [largest_of({key: max(values(runs, name)) / min(values(runs, name)) - 1 for key, runs in judged.items() if runs}) for name in list(LIMITS)[:3]]
+        off = ["-"] * len(FROM_REFERENCE)
+        if size + 1 == len(model.sizes):
+            off = [largest_of({key: max(abs(value / model.reference[key[1]][name] - 1) for value in values(runs, name))
+                               for key, runs in judged.items() if runs and name in model.reference.get(key[1], {})}) for name in FROM_REFERENCE]
+        cells = len({key[0] for key in of_model})
+        runs = sum(len(runs) for runs, _ in of_model.values())
+        coarse = sum(len(runs) for runs, _ in of_model.values() if runs[0].coarse)
+        failed = "; ".join(f"**{cell}, {law}: {complaint}**" for (cell, law), (_, complaints) in of_model.items() for complaint in complaints)
+        rows.append([f"`{model.name}`", "first" if size == 0 else "last", cells, runs, *apart, *off, coarse, failed or 0])
+    return rows
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mortise", nargs="?")
@@ -297,8 +332,8 @@ def main():
     if arguments.list or arguments.mortise is None:
         print(*(model.name for model in MODELS), "tipping", sep="\n")
         return 0
-    if arguments.write and (arguments.suite or not arguments.quick):
-        parser.error("--write is for the quick selection")
+    if arguments.write and (arguments.suite or not (arguments.quick or arguments.sizes in ([0], [2]) and not arguments.cells and not arguments.laws)):
+        parser.error("--write is for the quick selection, and for all cells of the first or the last meshes")
     arguments.quick = arguments.quick or arguments.suite
     program = study.Program(arguments.mortise, arguments.ranks, arguments.mpiexec)
     groups, tipped, seconds = {}, {}, 0.0
@@ -321,7 +356,10 @@ def main():
     print(f"{failed} of {len(groups) + len(tipped)} cases failed; {seconds:.0f} s of CPU in the program, without the tipping blocks")
     if not groups and not tipped:
         parser.error("no such case")
-    if arguments.write:
+    if arguments.write and not arguments.quick:
+        known = [(f"`{model.name}`", mesh) for model in MODELS for mesh in ("first", "last")]
+        study.page_tables.write(study.HERE / "sides.md", "apart", APART, apart_rows(groups, arguments.sizes[0]), keys=2, known=known)
+    elif arguments.write:
         study.page_tables.write(study.PAGE, "sides", TABLE, table_rows(groups, tipped), keys=2, known=known_keys())
     return 1 if failed else 0
 

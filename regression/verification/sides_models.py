@@ -44,6 +44,7 @@ class Model:
     force_tolerance: float = 1e-6
     quick: tuple = ()  # (cell, law) of the quick selection
     suite: tuple = ()  # of what the suite runs; the quick selection if nothing else is said
+    last: tuple = ()  # of what the suite runs on the last mesh as well, to hold it against the reference
     coarse: Callable = lambda cell: 0  # number of sizes with too few faces in the contact for stresses: forces are judged, and that the run warns
 
     def __post_init__(self):
@@ -52,6 +53,11 @@ class Model:
 
 def h(*values):
     return [[f"mesh.constants.h={value}"] for value in values]
+
+
+def named(references):
+    """{law: (pressure, von Mises, energy)} as Model.reference has it."""
+    return {law: dict(zip(("pressure", "von Mises", "energy"), values)) for law, values in references.items()}
 
 
 def from_circle(radius, place, axis):
@@ -133,6 +139,13 @@ QUICK_BLOCKS = {  # in a plane, in space
 }
 
 
+REFERENCE_BLOCKS = {  # quad9 with twelve times the cells
+    "tenth": {"frictionless": (10.40, 10.84, 0.07792), "coulomb": (10.41, 10.96, 0.07780)},
+    "third": {"frictionless": (11.18, 12.82, 0.08227), "coulomb": (11.13, 12.37, 0.08211)},
+    "two_thirds": {"frictionless": (12.58, 16.50, 0.09138), "coulomb": (12.41, 15.32, 0.09089)},
+}
+
+
 SUITE_BLOCKS = {  # in space, beside the quick ones
     "tenth": ("hex20", "frictionless"),
     "third": ("prism15", "coulomb"),
@@ -154,9 +167,17 @@ def block_models():
                 block_away(offset, dimension - 1),
                 (dimension - 1, 10),
                 block_cell,
+                reference=named(REFERENCE_BLOCKS[name]),
                 quick=QUICK_BLOCKS[name][dimension - 2],
                 suite=QUICK_BLOCKS[name][dimension - 2] + ((SUITE_BLOCKS[name],) if dimension == 3 else ()),
+                last=() if dimension == 3 else (("quad8", "frictionless"),),
             )
+
+
+REFERENCE_ROLLERS = {  # hex20 with cells of 0.1, with friction of 0.14
+    "longer": {"frictionless": (2325, 1573, 92.21), "coulomb": (2304, 1518, 91.83)},
+    "shorter": {"frictionless": (2322, 1545, 94.44), "coulomb": (2307, 1452, 93.58)},
+}
 
 
 def roller_models():
@@ -171,8 +192,10 @@ def roller_models():
             sizes,
             roller_away,
             (1, 5000),
+            reference=named(REFERENCE_ROLLERS[name]),
             quick=(("hex20", "frictionless"),) if name == "longer" else (("tet10", "coulomb"),),
             suite=(("hex8", "frictionless"),) if name == "longer" else (("tet4", "coulomb"),),
+            last=(("hex8", "frictionless"),),
         )
 
 
@@ -188,7 +211,11 @@ MODELS = [
         (0, 2500),
         quick=(("tet10", "coulomb"), ("hex20", "frictionless")),
         suite=(("tet10", "coulomb"), ("hex8", "frictionless")),
-        coarse=lambda cell: 1 if cell == "tet4" else 0,
+        reference={
+            "frictionless": {"pressure": 125.6, "von Mises": 119.5, "energy": 21.26},
+            "coulomb": {"pressure": 118.7, "von Mises": 136.3, "energy": 21.19},
+        },
+        last=(("hex8", "frictionless"),),
     ),
     Model(
         "ball_in_socket",
@@ -233,6 +260,11 @@ MODELS = [
         (2, 10e3),
         quick=(("hex8", "frictionless"), ("prism15", "coulomb")),
         suite=(("hex8", "frictionless"), ("prism6", "coulomb")),
+        reference={
+            "frictionless": {"pressure": 130.3, "von Mises": 232.3, "energy": 38.90},
+            "coulomb": {"pressure": 122.7, "von Mises": 208.2, "energy": 35.72},
+        },
+        last=(("hex8", "frictionless"),),
     ),
     *block_models(),
     Model(
@@ -272,6 +304,7 @@ MODELS = [
         laws=("coulomb",),
         coefficient=0.1,
         extra=strip_figures,
+        reference={"coulomb": {"pressure": 6940, "von Mises": 4072, "energy": 34870}},
         quick=(("quad8", "coulomb"),),
     ),
 ]
