@@ -247,6 +247,9 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
                      2 * results.stress.strain_energy, *std::ranges::min_element(softest), comm));
   append(result, post::strained_supports(support_loads(model, results, comm), results.balance.acting));
   append(result, post::point_forces(point_forces(model, state.rows->acts, results), results.balance.acting));
+  if (results.verdict.status == ExitStatus::solved)
+    append(result, post::unreached_tolerance(results.residuals, deck.solver.programme.tolerance.value.value_or(0),
+                                             results.algebraic_error));
   append(result, post::coarse_mesh(results.mesh_error, names));
   append(result, post::coarse_secondaries(results.contact_errors, results.mesh_error.squared_norm, pairs));
   append(result, post::facet_push(results.balance.push_of_facets, results.balance.gauges));

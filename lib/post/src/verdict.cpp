@@ -83,4 +83,19 @@ Verdict verdict(const Evidence& e)
           cure(e) + (wrong.empty() ? "" : fmt::format(" Beyond its limit: {}.", wrong))};
 }
 
+std::vector<Warning> unreached_tolerance(const Residuals& residuals, double tolerance, double algebraic_error)
+{
+  constexpr double more = 2;  // the last digit of a residual is rounding
+  if (!(tolerance > 0) || !(residuals.projected_gradient > more * tolerance)) return {};
+  Warning w{
+      "unreached_tolerance",
+      fmt::format("the projected gradient comes down to {:.1e} and not to solver.tolerance = {:.1e}: rounding leaves no less on this mesh; "
+                  "the solver's error is {:.1e} in the energy norm",
+                  residuals.projected_gradient, tolerance, algebraic_error),
+      "nothing, or a tolerance that can be reached"};
+  w.value = residuals.projected_gradient;
+  w.limit = tolerance;
+  return {w};
+}
+
 }  // namespace mortise::post

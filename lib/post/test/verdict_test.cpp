@@ -110,5 +110,18 @@ TEST(Verdict, a_body_that_drifts_has_no_equilibrium)
   EXPECT_EQ(verdict(e).status, ExitStatus::no_equilibrium);
 }
 
+TEST(UnreachedTolerance, is_told_beyond_twice_what_was_asked_for)
+{
+  Residuals residuals;
+  residuals.projected_gradient = 2.1e-10;
+  const auto told = unreached_tolerance(residuals, 1e-10, 3e-9);
+  ASSERT_EQ(told.size(), 1);
+  EXPECT_EQ(told[0].kind, "unreached_tolerance");
+  EXPECT_EQ(told[0].value, 2.1e-10);
+  EXPECT_EQ(told[0].limit, 1e-10);
+  EXPECT_TRUE(unreached_tolerance(residuals, 1.1e-10, 3e-9).empty());
+  EXPECT_TRUE(unreached_tolerance(residuals, 0, 3e-9).empty());  // auto
+}
+
 }  // namespace
 }  // namespace mortise::post

@@ -92,6 +92,7 @@ Solution FaceNewton::solve(const RightHandSide& right, std::span<const double> r
     if (run.result.converged || gives_up(run)) {
       if (!run.result.converged && run.exact_but_for_states) run.go_back();
       if (std::isnan(run.result.error)) find_error(run, natural);
+      if (!run.result.converged) run.result.converged = is_exact_but_for_residual(run);
       return solution_of(std::move(run));
     }
     if (is_exact_but_for_states(run, natural)) run.exact_but_for_states.emplace(run);
@@ -163,7 +164,7 @@ Projection FaceNewton::accept(Run& run, const Trial& trial, Judged judged)
   run.size = std::max(run.size, rounding_of_motions(run, natural));
   const bool near = run.worst() <= run.goal.residual * run.size, slow = run.worst() >= Limits::better * run.best;
   result.error = std::numeric_limits<double>::quiet_NaN();
-  if (run.goal.allowed_error || run.goal.exact > 0 || near || slow) find_error(run, natural);
+  if (run.goal.allowed_error || near || slow) find_error(run, natural);
   return natural;
 }
 

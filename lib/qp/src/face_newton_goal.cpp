@@ -87,12 +87,23 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
                (worst <= limits::Every::largest_residual * run.size || believable(result.error, 0, z, result.nu, goal));
     }
   }
-  if (!solved && goal.exact > 0 && std::isfinite(result.error))
+  if (!solved && goal.exact > 0 && goal.allowed_error && std::isfinite(result.error))
     solved = result.error <= goal.exact * goal.energy_norm(z, result.nu);
+  if (!solved && run.since_best >= Limits::stands_still) solved = is_exact_but_for_residual(run);
   if (!solved || (goal.allowed_error && !contact())) return false;
   if ((!goal.allowed_error || radii_at_rest(run)) && is_compatible(run)) return true;
   run.doubtful = true;
   return false;
+}
+
+// Whether z is a direct solution whose residual rounding keeps above what was asked for.
+bool FaceNewton::is_exact_but_for_residual(const Run& run) const
+{
+  const auto& goal = run.goal;
+  const auto& result = run.result;
+  if (!(goal.exact > 0) || goal.allowed_error || !std::isfinite(result.error)) return false;
+  if (run.worst() > std::max(goal.residual, limits::Direct::rough_residual) * run.size) return false;
+  return result.error <= goal.exact * goal.energy_norm(run.state.z, result.nu) && is_compatible(run);
 }
 
 // What the residual of a solution is relative to: see Solution::projected_gradient.

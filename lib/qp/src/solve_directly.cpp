@@ -58,7 +58,7 @@ class DirectSolver : public Solver {
       answer.radii.assign(radii.begin(), radii.end());
       return answer;
     }
-    auto solution = faces_->solve(right, radii, start, goal, observer, nullptr);
+    auto solution = faces_->solve(right, radii, start, within_reach(goal, known), observer, nullptr);
     if (!solution.converged && known && known->by_matrices) take_judged(right, radii, goal, *known->by_matrices, solution);
     return solution;
   }
@@ -70,7 +70,7 @@ class DirectSolver : public Solver {
       if (!answer->slides) answer->radii = law.radii(&answer->x);
       return answer;
     }
-    auto solution = faces_->solve(right, law, start, goal, observer, nullptr);
+    auto solution = faces_->solve(right, law, start, within_reach(goal, known), observer, nullptr);
     if (solution && !solution->converged && known && known->by_matrices)
       take_judged(right, law.radii(&known->by_matrices->x), goal, *known->by_matrices, *solution);
     return solution;
@@ -118,6 +118,13 @@ class DirectSolver : public Solver {
     return {next};
   }
 
+  // A residual that is asked for may be smaller than rounding of products lets it become. The error is then known all the same.
+  static Goal within_reach(Goal goal, const Foreknown* known)
+  {
+    if (known && known->by_matrices && !goal.allowed_error && goal.energy_norm) goal.exact = Limits::makes_up_for_residual;
+    return goal;
+  }
+
   // Takes away what the matrices differ by. Returns the solution if it can be judged and will do.
   std::optional<Solution> improve(const Problem& problem, ExplicitProgramme::Result& found, const Goal& goal)
   {
@@ -162,8 +169,11 @@ class DirectSolver : public Solver {
       result.equality = equality.norm(problem.right.e - equality.apply(found.x)) / forces;
     result.outer_iterations = 1;
     const double energy_norm = goal.energy_norm ? goal.energy_norm(found.x, found.nu) : size_of_x;
-    result.converged = result.error <= Limits::rounding_of_direct * energy_norm &&
-                       result.projected_gradient <= (goal.allowed_error ? limits::Every::largest_residual : goal.residual) &&
+    // What a residual may be, and an error, in its place.
+    const double residual =
+        goal.allowed_error ? limits::Every::largest_residual : std::max(goal.residual, Limits::rough_residual);
+    const double allowed = goal.allowed_error ? Limits::rounding_of_direct : Limits::makes_up_for_residual;
+    result.converged = result.error <= allowed * energy_norm && result.projected_gradient <= residual &&
                        obeys(problem, found.x) &&
                        (!goal.incompatibility || goal.incompatibility(found.x, found.nu) <= limits::Every::nearly_compatible);
     if (!result.converged) return {};

@@ -134,8 +134,10 @@ bool StateSearch::guess(int look_back)
       best_x = point_.x, best_nu = point_.nu;
     }
     if (step > 0 && small && (changes == 0 || turns_on_rounding)) {
-      if (!point_.settled) point_.x = std::move(best_x), point_.nu = std::move(best_nu);
-      return true;
+      if (point_.settled) return true;
+      // Of a solution that runs away rounding excuses anything.
+      point_.x = std::move(best_x), point_.nu = std::move(best_nu);
+      return off() <= Limits::rounded_residual || least <= Limits::roundings * programme_.rounding(point_.x, point_.nu);
     }
     if (changes == 0 && residual <= Limits::settled * size) return true;
     if (programme_.softness() > 0 && changes <= few && residual <= Limits::residual_of_soft * size) return true;

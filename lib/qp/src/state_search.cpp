@@ -43,9 +43,10 @@ bool StateSearch::from_anywhere()
   // States that rounding decides, or none: as with small dense matrices.
   const auto point = point_;
   const auto states = states_;
+  const double before = found ? off() : std::numeric_limits<double>::infinity();
   sparing_ = false;
   try {
-    if (find_patiently()) return true;
+    if (find_patiently() && (point_.settled || off() <= before)) return true;
   } catch (const Error& error) {
     if (error.status() != ExitStatus::not_converged) throw;
   }

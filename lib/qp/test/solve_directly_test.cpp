@@ -221,6 +221,32 @@ TEST(DirectSolver, JudgesTheSolutionByMatricesWhereFacesDoNotConverge)
   }
 }
 
+// A residual that is asked for and that rounding of products does not let come down: the error, which matrices tell, ends it.
+TEST(DirectSolver, EndsWhereRoundingKeepsTheResidual)
+{
+  for (const double off : {1e-9, 1e-2}) {
+    Setting setting;
+    auto& programme = setting.programme;
+    const RoughOperator rough(programme.a, off);
+    Hessian hessian(rough, 4000);
+    Budget budget(hessian, {}, false);
+    budget.start(Patience(1500));  // SMALSE-M is not to go on
+    const auto solver =
+        solver_kind("direct").make({hessian, programme.equality, programme.set}, {budget, nullptr, setting.means.make_explicit});
+    Goal goal{1e-14};
+    goal.energy_norm = [&](const Vector& x, const Eigen::VectorXd&) { return programme.distance(x, 0 * gathered(x, world())); };
+    const auto radii = programme.set.radii();
+    std::optional<Solution> start;
+    Foreknown known = solver->begin(programme.right, radii, start, goal, {});
+    const auto solution = solver->solve(programme.right, radii, start, goal, {}, &known);
+    EXPECT_EQ(solution.converged, off < 1e-6);
+    if (off > 1e-6) continue;
+    EXPECT_LT(hessian.count(), 300);
+    EXPECT_GT(solution.projected_gradient, goal.residual);
+    EXPECT_LT(programme.distance(solution.x, programme.reference()), 1e-6 * goal.energy_norm(solution.x, solution.nu));
+  }
+}
+
 // That bodies slide on for ever is told to who follows a law, and once; with radii that are given there is a solution.
 TEST(DirectSolver, TellsALawOnceThatBodiesSlide)
 {

@@ -3,8 +3,10 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
+#include "base/warning.hpp"
 
 namespace mortise::post {
 
@@ -47,5 +49,9 @@ struct Verdict {
 /// larger), however far bodies move: something soft may carry them. No equilibrium: a body drifts by half its size while some
 /// number does not fit. Else not converged. Depends on its argument alone.
 Verdict verdict(const Evidence& evidence);
+
+/// "unreached_tolerance": of an equilibrium that is solved, the projected gradient is more than twice the `tolerance` that the deck asks
+/// for (0: auto), as rounding leaves no less. `algebraic_error`: see Results.
+std::vector<Warning> unreached_tolerance(const Residuals& residuals, double tolerance, double algebraic_error);
 
 }  // namespace mortise::post

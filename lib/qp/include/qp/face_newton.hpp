@@ -66,6 +66,7 @@ class FaceNewton {
   bool is_solved(Run& run, const Projection& natural);
   double size_of_residuals(const Run& run) const;
   bool is_as_asked(const Run& run) const;
+  bool is_exact_but_for_residual(const Run& run) const;
   bool is_exact_but_for_states(Run& run, const Projection& natural);
   bool gives_up(Run& run) const;
   void minimise(Run& run, const Trial& trial);

@@ -86,7 +86,10 @@ struct Smalse {
 /// The row `direct`: when solutions by matrices will do, and how often they are corrected. Face Newton shows them to be some.
 struct Direct {
   static constexpr double rounding_of_direct = 1e-4;  ///< of the energy norm: error that they may leave; the mesh's is more
-  static constexpr double outside = 1e-6;  ///< of x: part of it that may lie outside of Omega, or not balance the loads
+  /// The same where a residual is asked for that rounding of products keeps: a hundredth of what Every::least_credible lets pass.
+  static constexpr double makes_up_for_residual = 1e-6;
+  static constexpr double rough_residual = 1e-4;  ///< that may be left then
+  static constexpr double outside = 1e-6;         ///< of x: part of it that may lie outside of Omega, or not balance the loads
 
   // Corrections of what the matrices differ from A by, as rows that depend on each other are given a compliance.
   static constexpr int most_corrections = 4;      ///< as long as each leaves

@@ -36,6 +36,7 @@ struct Goal {
   double negligible = 0;
 
   /// Part of the energy norm. An error below it ends face Newton whatever the residual: for a start from a direct solution.
+  /// Without an allowed error only where the residual no longer becomes smaller, or the run would be given up.
   double exact = 0;
 
   /// Part of the energy norm that the error may be for a small residual to count as a solution. Displacements of what bends, and
