@@ -9,7 +9,7 @@ foreach(deck no_equilibrium_lift ring_off_cone not_converged takes_turns steps_n
   mortise_regression(${deck} DIRECTORY must_fail RANKS 2 STUDY_RANKS 1)
 endforeach()
 # What is known once the deck and the mesh are read, or is lost as points are.
-foreach(deck no_file contradiction lost_grain two_orders wrong_orthotropy lost_points_by_name lost_curves lost_springs)
+foreach(deck no_file contradiction lost_grain two_orders two_orders_of_lines wrong_orthotropy lost_points_by_name lost_curves lost_springs)
   mortise_regression(${deck} DIRECTORY must_fail RANKS 1 STUDY_RANKS 2)
 endforeach()
 foreach(deck wrong_fits beyond_axis wrong_formulation wrong_auto wrong_names wrong_instances wrong_patterns wrong_preloads

@@ -33,6 +33,7 @@ struct GmshLibrary {
   decltype(gmsh::model::mesh::generate)* generate = gmsh::model::mesh::generate;
   decltype(gmsh::model::mesh::getNodes)* getNodes = gmsh::model::mesh::getNodes;
   decltype(gmsh::model::mesh::getElements)* getElements = gmsh::model::mesh::getElements;
+  decltype(gmsh::model::mesh::getElementsByType)* getElementsByType = gmsh::model::mesh::getElementsByType;
   decltype(gmsh::model::mesh::getElementProperties)* getElementProperties = gmsh::model::mesh::getElementProperties;
 };
 

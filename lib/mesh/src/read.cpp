@@ -242,6 +242,25 @@ void read_cells(const Options& options, int dimension, const std::vector<Group>&
                                  options.surfaces.begin()->first, fmt::join(known, ", ")));
 }
 
+// Lines, which gmsh keeps no count of. Asked for by a type, it gives as many as there are in the entity.
+void require_whole_curve(const std::string& file, int entity)
+{
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+  library().getElements(types, tags, nodes, 1, entity);
+  std::size_t given = 0, there = 0;
+  for (std::size_t t = 0; t < types.size(); ++t) {
+    std::vector<std::size_t> all, their_nodes;
+    library().getElementsByType(types[t], all, their_nodes, entity, 0, 1);
+    given += tags[t].size();
+    there += all.size();
+  }
+  if (there > given)
+    fail(file, fmt::format("{} of {} lines of the curve {} stand in it with lines of another order, where gmsh does not give them: "
+                           "write lines of first and of second order into entities of their own",
+                           there - given, there, entity));
+}
+
 // gmsh gives of each shape in an entity the cells of one order alone, and says nothing of the others.
 void require_whole(const std::string& file, int dimension)
 {
@@ -249,6 +268,7 @@ void require_whole(const std::string& file, int dimension)
   gmsh::vectorpair entities;
   library().getEntities(entities, -1);
   for (const auto& [dim, entity] : entities) {
+    if (dim == 1) require_whole_curve(file, entity);
     if (dim < 2 || dim > dimension) continue;
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> tags, nodes;
