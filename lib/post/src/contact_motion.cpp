@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <unordered_map>
 
-#include "base/dense.hpp"
-#include "contact_nodes.hpp"
+#include "contact_patches.hpp"
 #include "post/drift.hpp"
 #include "wording.hpp"
 
@@ -85,129 +85,10 @@ std::vector<Warning> long_slides(std::span<const contact::Pair> pairs, const con
 
 namespace {
 
-constexpr double presses = 1e-3;  // of the largest force of the contact's points
-
-constexpr double flat = 1e-3;  // radians from face to face
-
-// The faces at what presses, of one side: the angle between two of them where the surface is flattest, at nodes between corners
-// none; at corners its smallest radius, and whether it is round at all of them; their size, whose they are.
-struct Facets {
-  double flattest = std::numeric_limits<double>::infinity(), radius = flattest, size = 0;
-  int body = -1;
-  bool round = true;
-
-  void take(const Nodal& node)
-  {
-    flattest = std::min(flattest, node.angle());
-    if (!node.corner) return;
-    const double angle = node.angle();
-    round = round && angle > flat;
-    if (angle > flat) radius = std::min(radius, node.size / angle);
-    size = std::max(size, node.size);
-    body = std::max(body, node.body);
-  }
-};
-
-// Where a contact presses: how far along two directions of its surface (one in planes), of which the first is the narrowest, and
-// on which faces of its secondary and its primary side. `stuck`: the part of the force at points that stick.
-struct Patch {
-  double force = 0, stuck = 0;
-  Point normal = Point::Zero(), centre = Point::Zero();
-  std::vector<Point> directions = {};
-  std::vector<double> widths = {};
-  std::array<Facets, 2> sides = {};
-};
-
-struct Moments {
-  double force = 0, stuck = 0;
-  Point normal = Point::Zero(), first = Point::Zero();  // times the force, as all that follows
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-};
-static_assert(sizeof(Moments) == sizeof(double) * 17);
-
-Patch patch_of(const Moments& moments, int dimension)
+// Of the secondary side to the primary one, which is an obstacle or another body; none of a body in contact with itself.
+Point relative_turn(const contact::Pair& pair, const Patch& patch, const std::vector<BodyMotion>& motions)
 {
-  if (!(moments.force > 0)) return {};
-  const Point n = moments.normal.normalized(), centre = moments.first / moments.force;
-  Patch patch{moments.force, moments.stuck, n, centre};
-  if (dimension == 2) {
-    patch.directions = {Point(-n[1], n[0], 0)};
-    return patch;
-  }
-  const Eigen::Matrix3d spread = moments.second / moments.force - centre * centre.transpose(),
-                        along = Eigen::Matrix3d::Identity() - n * n.transpose();
-  const double larger = 2 * spread.cwiseAbs().sum() + 1;
-  const Eigen::Matrix3d axes =
-      dense::space_eigenpairs(Eigen::Matrix3d(along * spread * along + larger * n * n.transpose())).vectors;
-  patch.directions = {axes.col(0), axes.col(1)};  // the last one is the normal
-  return patch;
-}
-
-// The faces that the rows of a point act on.
-void take_faces(const constraint::Contacts& contacts, const constraint::ContactNode& point,
-                const std::unordered_map<Global, Nodal>& nodes, std::array<Facets, 2>& sides)
-{
-  constexpr double much = 0.3;  // of the row: nodes of the primary side that it is near
-  if (const auto found = nodes.find(point.node); found != nodes.end()) sides[0].take(found->second);
-  for (const auto& entry : contacts.rows[point.row]) {
-    const double n = point.normal[entry.component];
-    const auto found = nodes.find(entry.node);
-    if (found != nodes.end() && entry.coefficient * n < -much * point.weight * n * n) sides[1].take(found->second);
-  }
-}
-
-std::vector<Patch> pressing_patches(std::span<const contact::Pair> pairs, const constraint::Contacts& contacts,
-                                    std::span<const contact::ContactNodeState> states,
-                                    const std::unordered_map<Global, Nodal>& nodes, int dimension, const Communicator& comm)
-{
-  std::vector<double> largest(pairs.size(), 0.0);
-  const auto for_each_point = [&](const auto& visit) {
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      const auto c = static_cast<std::size_t>(states[i].contact);
-      if (touches(pairs, states[i]) && states[i].force > presses * largest[c])
-        visit(c, contacts.nodes[i], states[i].force, states[i].status == contact::Status::stick);
-    }
-  };
-  for_each_point([&](std::size_t c, const auto&, double force, bool) { largest[c] = std::max(largest[c], force); });
-  for (auto& force : largest) force = comm.max(force);
-  std::vector<Moments> moments(pairs.size());
-  for_each_point([&](std::size_t c, const constraint::ContactNode& point, double force, bool sticks) {
-    moments[c].force += force;
-    if (sticks) moments[c].stuck += force;
-    moments[c].normal += force * point.normal;
-    moments[c].first += force * point.at;
-    moments[c].second += force * point.at * point.at.transpose();
-  });
-  comm.sum_in_place({reinterpret_cast<double*>(moments.data()), moments.size() * 17});
-  std::vector<Patch> result;
-  for (const auto& sums : moments) result.push_back(patch_of(sums, dimension));
-  std::vector<std::array<double, 4>> ends(pairs.size());  // of each direction minus the least place and the largest
-  for (auto& end : ends) end.fill(-std::numeric_limits<double>::infinity());
-  for_each_point([&](std::size_t c, const constraint::ContactNode& point, double, bool) {
-    for (std::size_t k = 0; k < result[c].directions.size(); ++k) {
-      const double along = result[c].directions[k].dot(point.at - result[c].centre);
-      ends[c][2 * k] = std::max(ends[c][2 * k], -along);
-      ends[c][2 * k + 1] = std::max(ends[c][2 * k + 1], along);
-    }
-    take_faces(contacts, point, nodes, result[c].sides);
-  });
-  for (std::size_t c = 0; c < result.size(); ++c) {
-    for (std::size_t k = 0; k < result[c].directions.size(); ++k)
-      result[c].widths.push_back(comm.max(ends[c][2 * k]) + comm.max(ends[c][2 * k + 1]));
-    for (auto& side : result[c].sides) {
-      side.flattest = -comm.max(-side.flattest);
-      side.radius = -comm.max(-side.radius);
-      side.round = !comm.any(!side.round);
-      side.size = comm.max(side.size);
-      side.body = static_cast<int>(comm.max(static_cast<double>(side.body)));
-    }
-  }
-  return result;
-}
-
-// Of the secondary side to the primary one.
-Point relative_turn(const Patch& patch, const std::vector<BodyMotion>& motions)
-{
+  if (pair.primary && patch.sides[1].body < 0) return Point::Zero();
   const auto rotation = [&](const Facets& side) {
     return side.body < 0 ? Point(Point::Zero()) : motions[static_cast<std::size_t>(side.body)].rigid.rotation;
   };
@@ -230,6 +111,69 @@ double rolls_by(const Patch& patch, const Facets& faces, const Point& rotation)
   return std::sqrt(square);
 }
 
+bool is_round(const Facets& side)
+{
+  return side.body >= 0 && side.round && std::isfinite(side.radius);
+}
+
+// The moment of the pressure about the axis of a round side, radius * normal from there: of nothing, where it lies below the
+// axis.
+Point moment_about_axis(const Patch& patch, const Facets& side)
+{
+  if (!is_round(side)) return Point::Zero();
+  const Point moment = side.radius * patch.normal.cross(side.normals);
+  return side.normals.dot(patch.normal) < 0 ? Point(-moment) : moment;
+}
+
+// How a round side turns along a direction of its patch.
+struct Roll {
+  bool sticks;
+  double angle, way;    // of its surface
+  double width, limit;  // of what presses; of the way over that
+  double moment;        // of the pressure of all contacts of the body
+};
+
+// Of a round side, which turns by `turn`. `moment`: of all contacts of its body, see moment_about_axis().
+std::optional<Roll> roll_of(const Patch& patch, const Facets& side, std::size_t direction, const Point& turn, const Point& moment)
+{
+  // Of the width that presses. Where it slips friction is what it can be, and all that the lever of the pressure takes is lacking
+  // in what holds the body besides: that counts sooner where friction has no large moment either.
+  constexpr double part_where_it_sticks = 0.1, part_where_it_slips = 0.05, part_of_large_moment = 0.02, mostly = 0.5;
+  constexpr double large_moment = 0.05;  // of that and what friction has
+  // Of the way, that the pressure has moved aside, at least and at most, else something else holds it where it is; and of its
+  // moment, that is left with the other contacts of the body.
+  constexpr double moved = 0.3, farthest = 1.5, left = 0.3;
+  const Point axis = patch.normal.cross(patch.directions[direction]);
+  Roll roll{.sticks = patch.stuck > mostly * patch.force,
+            .angle = std::abs(turn.dot(axis)),
+            .way = 0,
+            .width = std::max(patch.widths[direction], side.size / 2),
+            .limit = 0,
+            .moment = -std::copysign(1, turn.dot(axis)) * moment.dot(axis)};  // against the turn
+  roll.way = roll.angle * side.radius;
+  const bool large = roll.moment > large_moment * (roll.moment + side.radius * patch.shear);
+  roll.limit = roll.sticks ? part_where_it_sticks : large ? part_of_large_moment : part_where_it_slips;
+  if (!(roll.way > roll.limit * roll.width)) return {};
+  if (roll.sticks) return patch.widths[direction] > side.size ? std::optional(roll) : std::nullopt;  // less: see facet_turns
+  const double own = -std::copysign(1, turn.dot(axis)) * moment_about_axis(patch, side).dot(axis), whole = roll.way * patch.force;
+  if (!(own > moved * whole && own < farthest * whole && roll.moment > left * own)) return {};
+  return roll;
+}
+
+std::string text_of(const Roll& roll, const std::string& body, const std::string& contact, const Patch& patch)
+{
+  if (roll.sticks)
+    return fmt::format(
+        "body \"{}\" rolls by about {:.3g} in contact {} at {}, which presses over {:.3g} that way: it presses where it "
+        "stood before, in the direction that it had there, and what it bears along the surface is off by up to {:.3g}",
+        body, roll.way, contact, spell(patch.centre), roll.width, patch.force * roll.angle);
+  return fmt::format(
+      "the surface of body \"{}\" turns by about {:.3g} in contact {} at {}, which presses over {:.3g} that way: the "
+      "pressure moves aside with it, where what is round keeps its place, and takes a moment of about {:.3g} from what "
+      "holds the body against turning",
+      body, roll.way, contact, spell(patch.centre), roll.width, roll.moment);
+}
+
 }  // namespace
 
 std::vector<Warning> facet_turns(std::span<const contact::Pair> pairs, const constraint::Contacts& contacts,
@@ -249,7 +193,7 @@ std::vector<Warning> facet_turns(std::span<const contact::Pair> pairs, const con
   std::vector<Warning> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& patch = patches[c];
-    const Point turn = relative_turn(patch, motions);
+    const Point turn = relative_turn(pairs[c], patch, motions);
     for (const auto& side : patch.sides) {
       if (!may_roll(patch, side)) continue;
       const auto& motion = motions[static_cast<std::size_t>(side.body)];
@@ -279,37 +223,32 @@ std::vector<Warning> rolled_contacts(std::span<const contact::Pair> pairs, const
                                      const partition::Decomposition& decomposition, fem::Kinematics kinematics,
                                      const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
 {
-  constexpr double part_of_width = 0.1, mostly = 0.5;
   if (kinematics == fem::Kinematics::axisymmetric) return {};
   const auto nodes = nodes_at_contact(pairs, contacts, states, decomposition, displacement, comm);
   const auto patches = pressing_patches(pairs, contacts, states, nodes, decomposition.catalogue.dimension, comm);
-  const auto sticks = [&](const Patch& patch) { return patch.force > 0 && patch.stuck > mostly * patch.force; };
-  if (std::ranges::none_of(patches, sticks)) return {};
+  if (std::ranges::none_of(patches, [](const Patch& patch) { return patch.force > 0; })) return {};
   const auto motions = rigid_motions(decomposition, kinematics, displacement, comm);
+  std::vector<Point> moments(motions.size(), Point::Zero());  // of each body
+  for (const auto& patch : patches)
+    for (const auto& side : patch.sides)
+      if (is_round(side)) moments[static_cast<std::size_t>(side.body)] += moment_about_axis(patch, side);
   std::vector<Warning> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& patch = patches[c];
-    if (!sticks(patch)) continue;
-    const Point turn = relative_turn(patch, motions);
+    const Point of_secondary = relative_turn(pairs[c], patch, motions);
     for (const auto& side : patch.sides)
-      for (std::size_t k = 0; k < patch.directions.size(); ++k) {
-        if (side.body < 0 || !side.round || !std::isfinite(side.radius)) continue;
-        const double angle = std::abs(turn.dot(patch.normal.cross(patch.directions[k])));
-        const double way = angle * side.radius;
-        if (!(patch.widths[k] > side.size) || !(way > part_of_width * patch.widths[k])) continue;  // narrower ones: facet_turns
-        const auto& name = decomposition.catalogue.bodies[static_cast<std::size_t>(side.body)].name;
-        Warning w{
-            "rolled_contact",
-            fmt::format("body \"{}\" rolls by about {:.3g} in contact {} at {}, which presses over {:.3g} that way: it presses "
-                        "where it stood before, in the direction that it had there, and what it bears along the surface is "
-                        "off by up to {:.3g}",
-                        name, way, pairs[c].options.name, spell(patch.centre), patch.widths[k], patch.force * angle),
-            "draw the bodies nearer to where they come to rest, or take no forces along the surface from it"};
+      for (std::size_t k = 0; k < patch.directions.size() && is_round(side); ++k) {
+        const Point turn = &side == &patch.sides[0] ? of_secondary : Point(-of_secondary);
+        const auto roll = roll_of(patch, side, k, turn, moments[static_cast<std::size_t>(side.body)]);
+        if (!roll) continue;
+        const auto& body = decomposition.catalogue.bodies[static_cast<std::size_t>(side.body)].name;
+        Warning w{"rolled_contact", text_of(*roll, body, pairs[c].options.name, patch),
+                  "draw the bodies nearer to where they come to rest, or take no such forces from the results"};
         w.at = patch.centre;
-        w.body = name;
+        w.body = body;
         w.contact = pairs[c].options.name;
-        w.value = way / patch.widths[k];
-        w.limit = part_of_width;
+        w.value = roll->way / roll->width;
+        w.limit = roll->limit;
         result.push_back(std::move(w));
       }
   }

@@ -30,6 +30,7 @@ struct Nodal {
     faces += other.faces;
     corner = corner || other.corner;
   }
+  Point normal() const { return Eigen::Map<const Point>(normals).normalized(); }
   /// Between two faces at the node, about: the normals of two stand at half of it to their mean.
   double angle() const { return 2 * std::acos(std::min(Eigen::Map<const Point>(normals).norm() / std::max(faces, 1.0), 1.0)); }
 };

@@ -27,7 +27,10 @@ std::vector<Warning> facet_turns(std::span<const contact::Pair> pairs, const con
 
 /// "rolled_contact": a round body rolls in a contact that mostly sticks, several faces wide, over more than a tenth of the
 /// width on which it presses. The contact stays where it was, with the directions that the surfaces had, so that the force F
-/// across it gets a part F * turn along it, which nothing real would resist. Arguments as above. Collective.
+/// across it gets a part F * turn along it, which nothing real would resist. Where it mostly slips, over a twentieth of that width:
+/// the pressure comes to lie aside of the body's axis by R * turn, and what holds the body against turning lacks that moment; over
+/// a fiftieth, if that is more than a twentieth of what friction has.
+/// Arguments as above. Collective.
 std::vector<Warning> rolled_contacts(std::span<const contact::Pair> pairs, const constraint::Contacts& contacts,
                                      std::span<const contact::ContactNodeState> states,
                                      const partition::Decomposition& decomposition, fem::Kinematics kinematics,
