@@ -15,15 +15,14 @@ struct PlaneAtCopy {
   Local node;
   int number;  // among the planes of the node
   std::array<double, 3> normal;
+  double traction;
 };
 
 }  // namespace
 
-std::vector<std::vector<post::SymmetricNode>> planes_at_copies(std::span<const Global> nodes,
-                                                               std::span<const std::vector<Point>> normals,
-                                                               const partition::Decomposition& decomposition,
-                                                               const partition::NodeDirectory& directory,
-                                                               const Communicator& comm)
+std::vector<std::vector<post::SymmetricNode>> planes_at_copies(
+    std::span<const Global> nodes, std::span<const std::vector<Point>> normals, const partition::Decomposition& decomposition,
+    const partition::NodeDirectory& directory, const Communicator& comm, std::span<const std::vector<double>> tractions)
 {
   const auto copies = directory.find(nodes, comm);
   std::vector<std::vector<PlaneAtCopy>> planes(static_cast<std::size_t>(comm.size()));
@@ -31,7 +30,7 @@ std::vector<std::vector<post::SymmetricNode>> planes_at_copies(std::span<const G
     for (const auto& copy : copies[i])
       for (std::size_t k = 0; k < normals[i].size(); ++k) {
         planes[static_cast<std::size_t>(decomposition.rank_of(copy.subdomain))].push_back(
-            {copy.subdomain, copy.node, static_cast<int>(k), components(normals[i][k])});
+            {copy.subdomain, copy.node, static_cast<int>(k), components(normals[i][k]), tractions.empty() ? 0 : tractions[i][k]});
       }
   std::vector<PlaneAtCopy> own;
   for (const auto& part : comm.exchange(planes)) own.insert(own.end(), part.begin(), part.end());
@@ -44,6 +43,7 @@ std::vector<std::vector<post::SymmetricNode>> planes_at_copies(std::span<const G
     auto& of_subdomain = result[static_cast<std::size_t>(plane.subdomain - first)];
     if (of_subdomain.empty() || of_subdomain.back().node != plane.node) of_subdomain.push_back({plane.node, {}});
     of_subdomain.back().normals.push_back(point(plane.normal));
+    if (!tractions.empty()) of_subdomain.back().tractions.push_back(plane.traction);
   }
   return result;
 }

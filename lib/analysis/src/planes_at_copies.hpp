@@ -10,11 +10,9 @@
 namespace mortise::analysis {
 
 /// The planes with the unit normals `normals[i]` of the nodes `nodes[i]`, at all of their copies: of each subdomain of this rank,
-/// ascending. Collective.
-std::vector<std::vector<post::SymmetricNode>> planes_at_copies(std::span<const Global> nodes,
-                                                               std::span<const std::vector<Point>> normals,
-                                                               const partition::Decomposition& decomposition,
-                                                               const partition::NodeDirectory& directory,
-                                                               const Communicator& comm);
+/// ascending. `tractions`: along the normals, none or one for each. Collective.
+std::vector<std::vector<post::SymmetricNode>> planes_at_copies(
+    std::span<const Global> nodes, std::span<const std::vector<Point>> normals, const partition::Decomposition& decomposition,
+    const partition::NodeDirectory& directory, const Communicator& comm, std::span<const std::vector<double>> tractions = {});
 
 }  // namespace mortise::analysis

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "mesh/shape_functions.hpp"
@@ -158,6 +159,32 @@ std::vector<Point> normals_of_surfaces(std::span<const FaceAtNode> faces, std::s
   return result;
 }
 
+// On the ranks node % ranks, ascending. Collective.
+std::vector<model::FacePressure> pressures_at_nodes(const model::Model& model, const model::LoadState& acts,
+                                                    const Communicator& comm)
+{
+  std::vector<std::vector<model::FacePressure>> send(static_cast<std::size_t>(comm.size()));
+  for (const auto& pressed : model.face_pressures(acts)) send[home(pressed.node, comm)].push_back(pressed);
+  std::vector<model::FacePressure> result;
+  for (const auto& part : comm.exchange(send)) result.insert(result.end(), part.begin(), part.end());
+  std::ranges::stable_sort(result, {}, &model::FacePressure::node);
+  return result;
+}
+
+// What acts at a node across the faces with this normal: not a number where a support holds it, or where loads end.
+double traction_across(const Point& normal, std::span<const FaceAtNode> faces, std::span<const Touch> planes,
+                       std::span<const model::FacePressure> pressures)
+{
+  const auto is_of = [&](const auto& face) { return point(face.normal).dot(normal) > one_surface; };
+  double pressure = 0;
+  for (const auto& pressed : pressures)
+    if (is_of(pressed)) pressure += pressed.pressure;
+  const auto count = std::ranges::count_if(faces, is_of);
+  const bool ends = std::ranges::count_if(pressures, is_of) % std::max<std::ptrdiff_t>(count, 1) != 0;
+  if (count == 0 || ends || std::ranges::any_of(planes, is_of)) return std::numeric_limits<double>::quiet_NaN();
+  return -pressure / static_cast<double>(count);
+}
+
 }  // namespace
 
 std::vector<std::vector<post::SymmetricNode>> find_shear_free_nodes(const model::Model& model, const Rows& rows,
@@ -166,18 +193,25 @@ std::vector<std::vector<post::SymmetricNode>> find_shear_free_nodes(const model:
 {
   const auto faces = faces_at_nodes(partition::outer_surface(model.decomposition(), comm), comm);
   const auto touched = touches(model, rows, comm);
+  const auto pressures = pressures_at_nodes(model, rows.acts, comm);
   std::vector<Global> nodes;
   std::vector<std::vector<Point>> normals;
+  std::vector<std::vector<double>> tractions;
   for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
     while (end < faces.size() && faces[end].node == faces[i].node) ++end;
     const auto here = std::ranges::equal_range(touched, faces[i].node, {}, &Touch::node);
     if (std::ranges::any_of(here, &Touch::along_faces)) continue;
-    auto found = normals_of_surfaces(std::span(faces).subspan(i, end - i), {here.begin(), here.end()});
+    const auto own = std::span(faces).subspan(i, end - i);
+    auto found = normals_of_surfaces(own, {here.begin(), here.end()});
     if (found.empty()) continue;
+    const auto pressing = std::ranges::equal_range(pressures, faces[i].node, {}, &model::FacePressure::node);
+    auto& across = tractions.emplace_back();
+    for (const Point& normal : found)
+      across.push_back(traction_across(normal, own, {here.begin(), here.end()}, {pressing.begin(), pressing.end()}));
     nodes.push_back(faces[i].node);
     normals.push_back(std::move(found));
   }
-  return planes_at_copies(nodes, normals, model.decomposition(), directory, comm);
+  return planes_at_copies(nodes, normals, model.decomposition(), directory, comm, tractions);
 }
 
 }  // namespace mortise::analysis

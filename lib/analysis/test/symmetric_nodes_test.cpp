@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "model/resolution.hpp"
@@ -57,19 +58,27 @@ class Found {
     struct Normal {
       int body;
       std::array<double, 3> at, normal;
+      double traction;
       Global subdomain;
     };
     std::vector<Normal> own;
     for (std::size_t s = 0; s < nodes.size(); ++s)
       for (const auto& node : nodes[s])
-        for (const Point& n : node.normals) {
+        for (std::size_t k = 0; k < node.normals.size(); ++k) {
+          const Point& n = node.normals[k];
           const auto& subdomain = resolved.decomposition.subdomains[s];
           const Point& x = subdomain.mesh.points[static_cast<std::size_t>(node.node)];
-          own.push_back({subdomain.body, {x[0], x[1], x[2]}, {n[0], n[1], n[2]}, subdomain.id});
+          own.push_back({subdomain.body,
+                         {x[0], x[1], x[2]},
+                         {n[0], n[1], n[2]},
+                         node.tractions.empty() ? 0 : node.tractions[k],
+                         subdomain.id});
         }
     std::map<std::pair<int, std::array<double, 3>>, std::map<Global, std::vector<Point>>> copies;
-    for (const auto& n : comm_.all_gather(own))
+    for (const auto& n : comm_.all_gather(own)) {
       copies[{n.body, n.at}][n.subdomain].emplace_back(n.normal[0], n.normal[1], n.normal[2]);
+      tractions_[{n.body, n.at}].emplace_back(Point(n.normal[0], n.normal[1], n.normal[2]), n.traction);
+    }
     for (const auto& [at, of] : copies) {
       normals_[at] = of.begin()->second;
       for (const auto& [subdomain, normals] : of) EXPECT_EQ(normals, of.begin()->second);
@@ -90,6 +99,18 @@ class Found {
     const auto found = normals_.find({body, {x, y, z}});
     return found == normals_.end() ? std::vector<Point>() : found->second;
   }
+  // The traction along a normal that is found there, of all copies.
+  double traction(int body, const Point& x, const Point& normal) const
+  {
+    std::vector<double> values;
+    for (const auto& [n, value] : tractions_.at({body, {x[0], x[1], x[2]}}))
+      if ((n - normal).norm() < 1e-9) values.push_back(value);
+    EXPECT_FALSE(values.empty());
+    for (const double value : values) EXPECT_EQ(std::isnan(value), std::isnan(values[0])) << value;
+    for (const double value : values)
+      if (!std::isnan(value)) EXPECT_EQ(value, values[0]);
+    return values.empty() ? 0 : values[0];
+  }
   // How many of a body's nodes are on a plane with this normal.
   int on(int body, const Point& normal) const
   {
@@ -102,6 +123,7 @@ class Found {
  private:
   Communicator comm_;
   std::map<std::pair<int, std::array<double, 3>>, std::vector<Point>> normals_;
+  std::map<std::pair<int, std::array<double, 3>>, std::vector<std::pair<Point, double>>> tractions_;
 };
 
 const Point along_x = Point::UnitX(), along_y = Point::UnitY();
@@ -287,6 +309,23 @@ TEST(ShearFreeNodes, BlocksOnEachOther)
 }
 
 // Faces of a curved surface have one normal together; at a reentrant edge there is none.
+// Loads add up; what holds or pushes along the normal leaves the traction unknown.
+TEST(ShearFreeNodes, TractionsAcrossFaces)
+{
+  const auto shear_free = &post::SymmetricNodes::shear_free;
+  const Point along_z = Point::UnitZ();
+  const Found found(two_blocks + quarter + "  - {boundary: upper.ymax, stiffness: {normal: 5}}\n" +
+                        "loads:\n  - {boundary: upper.zmax, pressure: \"2+x\"}\n  - {boundary: upper.zmax, pressure: 1}\n",
+                    3, 1, shear_free);
+  EXPECT_NEAR(found.traction(1, {0.5, 0.5, 2}, along_z), -3.5, 1e-12);
+  EXPECT_NEAR(found.traction(1, {1, 0.5, 2}, along_z), -4, 1e-12);
+  EXPECT_EQ(found.traction(1, {1, 0.5, 2}, along_x), 0);
+  EXPECT_EQ(found.traction(1, {1, 0.5, 1.5}, along_x), 0);
+  EXPECT_TRUE(std::isnan(found.traction(1, {0.5, 0, 1.5}, -along_y)));
+  EXPECT_TRUE(std::isnan(found.traction(1, {0.5, 1, 1.5}, along_y)));
+  EXPECT_NEAR(found.traction(1, {0.5, 1, 2}, along_z), -3.5, 1e-12);
+}
+
 TEST(ShearFreeNodes, EdgesAndCurvedSurfaces)
 {
   const auto nodes = &post::SymmetricNodes::shear_free;

@@ -55,6 +55,12 @@ Stress symmetric_stress(const Stress& stress, std::span<const Point> normals)
   return entries(result + rest * s * rest);
 }
 
+Stress stress_with_traction(const Stress& stress, const Point& normal, double traction)
+{
+  const Tensor s = tensor(stress);
+  return entries(s + (traction - normal.dot(s * normal)) * normal * normal.transpose());
+}
+
 Stress rotated_stress(const Stress& stress, const Eigen::Matrix3d& rotation)
 {
   return entries(rotation * tensor(stress) * rotation.transpose());

@@ -66,6 +66,18 @@ TEST(Stress, SymmetricOnesAreMeansOfMirrorImages)
 }
 
 // A tensor of known eigenvalues, rotated; pure shear; equal ones.
+// The traction across one face changes, those across faces at right angles to it do not.
+TEST(Stress, TakesATractionAcrossAFace)
+{
+  Stress stress;
+  stress << 3, -1, 2, 0.5, 0.25, -0.75;
+  const Eigen::Matrix3d axes = Eigen::AngleAxisd(0.7, Point(1, 2, -1).normalized()).toRotationMatrix();
+  const auto in_axes = [&](const Stress& s) { return rotated_stress(s, axes.transpose()); };
+  Stress expected = in_axes(stress);
+  expected[1] = -4;
+  EXPECT_LT((in_axes(stress_with_traction(stress, axes.col(1), -4)) - expected).norm(), 1e-14 * expected.norm());
+}
+
 TEST(Stress, PrincipalStressesAreSortedEigenvalues)
 {
   const Eigen::Matrix3d q = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();

@@ -1,6 +1,7 @@
 // Faces on planes that supports hold along their normals alone, and what else acts there.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "model/model.hpp"
@@ -72,6 +73,19 @@ std::optional<Point> constant_push(const fem::LoadOptions& load)
 bool along(const Point& direction, const Point& normal)
 {
   return direction.cross(normal).norm() < parallel;
+}
+
+// Whether a facet belongs to the boundary of a name; each name is looked up once.
+template <class Select>
+auto selections(const Select& select)
+{
+  return
+      [known = std::map<std::string, decltype(select(""))>(), select](const std::string& name, int boundary, int body) mutable {
+        if (name.empty()) return false;
+        auto at = known.find(name);
+        if (at == known.end()) at = known.emplace(name, select(name)).first;
+        return at->second.boundary == boundary && at->second.on_body[static_cast<std::size_t>(body)];
+      };
 }
 
 // Collects what acts on the faces of this rank, which begin() names one after the other.
@@ -156,13 +170,7 @@ void FaceActions::add(const fem::LoadOptions& load, const std::optional<deck::Lo
 std::vector<FaceAction> Model::face_actions(const LoadState& state, const Communicator& comm) const
 {
   const auto supports = this->supports(state);
-  std::map<std::string, Selection> known;
-  const auto selected = [&](const std::string& name, int boundary, int body) {
-    if (name.empty()) return false;
-    auto at = known.find(name);
-    if (at == known.end()) at = known.emplace(name, select(name)).first;
-    return at->second.boundary == boundary && at->second.on_body[static_cast<std::size_t>(body)];
-  };
+  auto selected = selections([this](const std::string& name) { return select(name); });
   std::vector<std::optional<deck::LocalAxes>> load_axes;
   for (const auto& load : deck_.loads)
     load_axes.push_back(load.axes.empty() ? std::nullopt : std::optional(local_axes(deck_, load.axes)));
@@ -186,6 +194,37 @@ std::vector<FaceAction> Model::face_actions(const LoadState& state, const Commun
     for (const auto& subdomain : decomposition_.subdomains) actions.add_axis(subdomain.mesh, near);
   }
   return std::move(actions.found);
+}
+
+std::vector<FacePressure> Model::face_pressures(const LoadState& state) const
+{
+  auto selected = selections([this](const std::string& name) { return select(name); });
+  std::vector<FacePressure> result;
+  for (const auto& subdomain : decomposition_.subdomains) {
+    const auto& mesh = subdomain.mesh;
+    for (std::size_t f = 0; f < mesh.facets.cells.size(); ++f) {
+      const auto here = [&](const std::string& name) { return selected(name, mesh.facets.boundary[f], subdomain.body); };
+      const auto pushes = [&](std::size_t i) {
+        return state.acting[i] && deck_.supports[i].stiffness.normal && here(deck_.supports[i].boundary);
+      };
+      bool unknown = false;
+      for (std::size_t i = 0; i < deck_.supports.size(); ++i) unknown = unknown || pushes(i);
+      std::vector<std::size_t> pressing;
+      for (std::size_t i = 0; i < deck_.loads.size(); ++i)
+        if (deck_.loads[i].pressure && state.load[i] != 0 && here(deck_.loads[i].boundary)) pressing.push_back(i);
+      if (!unknown && pressing.empty()) continue;
+      const auto normal = array_of(plane_of(mesh, f).normal);
+      for (const Local n : mesh.facets.cells[f]) {
+        const auto node = static_cast<std::size_t>(n);
+        double pressure = unknown ? std::numeric_limits<double>::quiet_NaN() : 0;
+        for (const std::size_t i : pressing)
+          pressure += state.load[i] * (*deck_.loads[i].pressure)(mesh.points[node], state.time);
+        if (!std::isfinite(pressure)) pressure = std::numeric_limits<double>::quiet_NaN();  // a formula may have no value there
+        result.push_back({mesh.node_id[node], normal, pressure});
+      }
+    }
+  }
+  return result;
 }
 
 }  // namespace mortise::model

@@ -107,6 +107,17 @@ void make_symmetric(Eigen::MatrixXd& stress, std::span<const SymmetricNode> node
     }
 }
 
+// Gives the stress of these nodes, nodes x 6 blocks, the tractions across faces that are known.
+void take_tractions(Eigen::MatrixXd& stress, std::span<const SymmetricNode> nodes)
+{
+  for (const auto& at : nodes)
+    for (std::size_t i = 0; i < at.tractions.size(); ++i)
+      for (Eigen::Index k = 0; k < stress.cols() && !std::isnan(at.tractions[i]); k += 6) {
+        auto own = stress.row(at.node).segment(k, 6);
+        own = fem::stress_with_traction(own.transpose(), at.normals[i], at.tractions[i]).transpose();
+      }
+}
+
 // Goes on beyond planes of symmetry that are at right angles to each other.
 void mirror_patches(const ElasticBodies& bodies, std::size_t s, fem::Patches& patches)
 {
@@ -214,16 +225,21 @@ Eigen::VectorXd squared_errors(const ElasticBodies& bodies, std::size_t s, const
   Eigen::MatrixXd of_patches = means(patches, averages), of_averages = averages;
   make_symmetric(of_patches, at_copies(bodies, s, &SymmetricNodes::mirrored));
   const auto layer = cells_in_a_layer(mesh, own.materials, patches);
-  Eigen::VectorXd along_layer;
+  Eigen::VectorXd along_layer, across_layer;
   if (!layer.empty()) {
     along_layer = squared_by(of_patches, of_averages);
     add_unseen(bodies, s, displacement, layer, along_layer);
+    Eigen::MatrixXd with_tractions = of_averages;
+    take_tractions(with_tractions, at_copies(bodies, s, &SymmetricNodes::shear_free));
+    across_layer = fem::squared_errors(mesh, own.materials, bodies.kinematics, displacement, with_tractions, own.formulation,
+                                       own.temperature_change);
   }
   for (auto* stress : {&of_patches, &of_averages}) make_symmetric(*stress, at_copies(bodies, s, &SymmetricNodes::shear_free));
   Eigen::VectorXd result = squared_by(of_patches, of_averages);
   for (const std::size_t c : layer) {
     auto& squared = result[static_cast<Eigen::Index>(c)];
-    if (!mesh::second_order(mesh.cells.type[c])) squared *= of_linear_shear;
+    if (!mesh::second_order(mesh.cells.type[c]))
+      squared = std::max(of_linear_shear * squared, across_layer[static_cast<Eigen::Index>(c)]);
     squared = std::max(squared, along_layer[static_cast<Eigen::Index>(c)]);
   }
   return result.cwiseMax(

@@ -18,6 +18,9 @@ std::vector<std::vector<Point>> mirrored_spaces(std::span<const Point> normals);
 /// principal direction of it. Of planes that are not at right angles so is all that their normals span.
 Stress symmetric_stress(const Stress& stress, std::span<const Point> normals);
 
+/// With n . sigma n = t along the unit normal n, and all the rest as it is.
+Stress stress_with_traction(const Stress& stress, const Point& normal, double traction);
+
 /// R sigma R', the stress after the body has been rotated by R.
 Stress rotated_stress(const Stress& stress, const Eigen::Matrix3d& rotation);
 

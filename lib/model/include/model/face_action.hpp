@@ -22,4 +22,11 @@ struct FaceAction {
   Kind kind;
 };
 
+/// The pressure of all loads on one face, at one of its nodes.
+struct FacePressure {
+  Global node;
+  std::array<double, 3> normal;  ///< unit, out of the body
+  double pressure;               ///< not a number where springs push along the normal, or a formula has no value
+};
+
 }  // namespace mortise::model

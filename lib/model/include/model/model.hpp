@@ -78,6 +78,8 @@ class Model {
   /// What supports, loads and couplings of a state do at the nodes of this rank's faces. In axisymmetry the axis is a face as
   /// well. Collective.
   std::vector<FaceAction> face_actions(const LoadState& state, const Communicator& comm) const;
+  /// Of this rank's faces that loads press or springs push.
+  std::vector<FacePressure> face_pressures(const LoadState& state) const;
   /// For each body whether it is one of those `touched`, one of the deck's supports lies on it, or a coupling or a spring ties it
   /// to such a body. Collective.
   std::vector<bool> supported(const std::vector<bool>& touched, const Communicator& comm) const;

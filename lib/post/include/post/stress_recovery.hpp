@@ -14,9 +14,11 @@
 //
 // At nodes of a sector's cuts that match, both are means with those of the node that is one with it, rotated.
 //
-// At faces that nothing acts along neither recovery of the estimate has shear (SymmetricNodes::shear_free), as the exact stress has
-// none: where stresses are smooth along a body of one or two cells across, nothing else shows the error [cf. Rodenas et al., Int. J.
-// Numer. Methods Eng. 70 (2007), who make recovered stresses fulfil the boundary's equilibrium].
+// At faces that nothing acts along neither recovery of the estimate has shear (SymmetricNodes::shear_free), as the exact stress
+// has none: where stresses are smooth along a body of one or two cells across, nothing else shows the error [cf. Rodenas et al.,
+// Int. J. Numer. Methods Eng. 70 (2007), who make recovered stresses fulfil the boundary's equilibrium]. So it is with the
+// tractions across faces, in one layer of cells of first order: through the wall of a tube the radial stress goes from what
+// presses to nothing, where cells know its mean.
 //
 // Of boundary elements stresses are known at the surface, panel by panel, and averaged in the same way.
 #pragma once
@@ -39,6 +41,7 @@ namespace mortise::post {
 struct SymmetricNode {
   Local node;
   std::vector<Point> normals;
+  std::vector<double> tractions = {};  ///< along each normal; not a number where it is not known, none if no one asks
 };
 
 /// A node on the cut of a sector that is one with a node of its other cut, rotated: u(node) = rotation u(other).
@@ -53,8 +56,9 @@ struct RotatedNode {
 /// have the same.
 struct SymmetricNodes {
   std::vector<std::vector<SymmetricNode>> mirrored;  ///< in planes; no subdomain if there are none on any rank
-  std::vector<std::vector<RotatedNode>> rotated;       ///< in sectors; no subdomain if there are none on any rank
-  /// Not symmetric, but faces there bear no traction along themselves: recovered stresses of the error estimate have none either.
+  std::vector<std::vector<RotatedNode>> rotated;     ///< in sectors; no subdomain if there are none on any rank
+  /// Not symmetric, but faces there bear no traction along themselves: recovered stresses of the error estimate have none either,
+  /// and across one layer of cells of first order the tractions that loads give.
   std::vector<std::vector<SymmetricNode>> shear_free = {};
 };
 
