@@ -139,21 +139,21 @@ std::size_t edit_distance(const std::string& a, const std::string& b)
 Document::Document(const std::string& text, std::string file, const std::vector<std::string>& settings) : file_(std::move(file))
 {
   if (const auto flaw = foreign_characters(text)) fail(at(file_, *flaw));
-  std::vector<YAML::Node> documents;
   bool has_aliases = false;
   try {
     const auto found = scan(text);
     if (found.flaw) fail(at(file_, *found.flaw));
+    if (found.next_document)
+      fail(fmt::format("{}:{}: {}", file_, *found.next_document,
+                       text.starts_with("---") || text.find("\n---") != std::string::npos
+                           ? "a second document begins, after `---`; a deck is one document, give each its own file"
+                           : "something stands behind the end of the deck; look for a comma or a bracket too many"));
     has_aliases = found.has_aliases;
-    documents = YAML::LoadAll(text);
+    root_ = YAML::Load(text);
   } catch (const YAML::Exception& error) {
     fail(parser_error(file_, text, error));
   }
-  if (documents.empty() || documents.front().IsNull()) fail(fmt::format("{}:1: the deck is empty", file_));
-  if (documents.size() > 1)
-    fail(fmt::format("{}:{}: a second document begins, after `---`; a deck is one document, give each its own file", file_,
-                     documents[1].Mark().line + 1));
-  root_ = documents.front();
+  if (root_.IsNull()) fail(fmt::format("{}:1: the deck is empty", file_));
   if (!root_.IsMap()) fail(fmt::format("{}:1: a deck is a mapping of sections such as `mesh:` and `bodies:`", file_));
   if (has_aliases && !settings.empty()) root_ = written_out(root_);
   std::string misplaced;

@@ -24,6 +24,7 @@ class Walk : public YAML::EventHandler {
  public:
   bool has_aliases = false;
   std::optional<Flaw> first_flaw;
+  std::optional<int> first_line;
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
@@ -115,6 +116,7 @@ class Walk : public YAML::EventHandler {
   }
   void begin(const YAML::Mark& mark)
   {
+    if (!first_line) first_line = mark.line + 1;
     count(mark, 1);
     descend(mark, 1);
   }
@@ -172,13 +174,15 @@ Scan scan(const std::string& text)
 {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
-  Walk walk;
+  Walk walk, next;
+  std::optional<int> next_document;
   try {
     parser.HandleNextDocument(walk);
+    if (!walk.first_flaw && parser.HandleNextDocument(next)) next_document = next.first_line.value_or(1);
   } catch (const Flaw& flaw) {
-    return {walk.has_aliases, flaw};
+    return {walk.has_aliases, flaw, {}};
   }
-  return {walk.has_aliases, walk.first_flaw};
+  return {walk.has_aliases, walk.first_flaw, next_document};
 }
 
 std::optional<Flaw> foreign_characters(const std::string& text)

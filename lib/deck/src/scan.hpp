@@ -16,13 +16,15 @@ struct Flaw {
 
 struct Scan {
   bool has_aliases = false;
-  std::optional<Flaw> flaw;  ///< the first
+  std::optional<Flaw> flaw;          ///< the first
+  std::optional<int> next_document;  ///< the line, from 1, where another document begins
 };
 
 /// Whether a character is none of a text: not those that end lines, and no tab.
 bool is_control(char c);
 
-/// The first document in `text`. Throws YAML::Exception where it is no YAML; needs memory of the text's size.
+/// The first document in `text`, and whether another one follows: of `[],` the parser makes documents without end. Throws
+/// YAML::Exception where it is no YAML; needs memory of the text's size.
 Scan scan(const std::string& text);
 
 /// The first line of `text` that is not UTF-8, or holds characters that are no text: YAML readers stop at some of them without a

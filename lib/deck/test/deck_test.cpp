@@ -111,6 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"", "cart.yaml:1: the deck is empty"}, Mistake{"# only a comment\n", "cart.yaml:1: the deck is empty"},
         Mistake{good + "---\ntitle: two\n",
                 "cart.yaml:5: a second document begins, after `---`; a deck is one document, give each its own file"},
+        Mistake{"[],", "cart.yaml:1: something stands behind the end of the deck; look for a comma or a bracket too many"},
         Mistake{good + "title: K\xe4"
                        "fig\n",
                 "cart.yaml:4: this line is not UTF-8; save the deck in that encoding"},
