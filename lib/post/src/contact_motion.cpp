@@ -98,7 +98,7 @@ Point relative_turn(const contact::Pair& pair, const Patch& patch, const std::ve
 // Whether it is round there, and as narrow as that somewhere.
 bool may_roll(const Patch& patch, const Facets& faces)
 {
-  return faces.body >= 0 && faces.flattest > flat &&
+  return faces.body >= 0 && faces.flattest > flat && faces.flattest < edge &&
          std::ranges::any_of(patch.widths, [&](double width) { return width <= faces.size; });
 }
 

@@ -9,8 +9,8 @@
 
 namespace mortise::post {
 
-/// From face to face, in radians: less is no corner.
-inline constexpr double flat = 1e-3;
+/// From face to face, in radians: less is no corner, more (a hexagon's is 1.05) is an edge of the body, not its mesh's.
+inline constexpr double flat = 1e-3, edge = 1.1;
 
 /// The faces at what presses, of one side: the angle between two of them where the surface is flattest, at nodes between corners
 /// none; at corners its smallest radius, and whether it is round at all of them; their size, whose they are; their normals, times

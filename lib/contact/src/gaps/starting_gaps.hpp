@@ -42,7 +42,9 @@ class StartingGaps {
  private:
   bool starts_in_mesh() const { return !options_.clearance && !options_.adjust && !one_surface_.anywhere(); }
   Rays::GapOf start() const;
-  double without_rounding(std::size_t surface_node, bool nearest, double gap, const Point& at, const Point& direction);
+  /// What a gap is of, in place of its node.
+  enum class Beyond { nothing, nearest_place, control_value };
+  double without_rounding(std::size_t surface_node, Beyond beyond, double gap, const Point& at, const Point& direction);
 
   const Options& options_;
   double reach_;
