@@ -40,6 +40,7 @@ mortise_regression(bond_at_symmetry VARIANT .coarse EXPECTED cases/bond_at_symme
   SET mesh.constants.lower=3 mesh.constants.upper=4)
 mortise_regression(touches_in_a_node RANKS 1 STUDY_RANKS 2)
 mortise_regression(stands_on_corner RANKS 1 STUDY_RANKS 2)
+mortise_regression(bond_in_corner RANKS 1 3 STUDY_RANKS 2)
 mortise_regression(bent_ring RANKS 1)
 mortise_regression(tube_of_one_layer RANKS 1 STUDY_RANKS 2)
 mortise_regression(tube_of_one_layer VARIANT .triangles RANKS 1 EXPECTED cases/tube_of_one_layer.triangles.expected.json

@@ -102,7 +102,8 @@ class ContactRows {
     const auto held_opposite = [&](std::size_t p, const Point& axis) {
       return !matches_[p] && s_.rays.meets(p) && opposite_supports_.prescribe(s_.rays.meet(p), axis);
     };
-    return {s_.secondary, s_.nodes, s_.faces, s_.supports, chosen_.kept, held_opposite, s_.dimension};
+    const auto held_on_primary = [&](Local node, const Point& axis) { return opposite_supports_.hold(node, axis); };
+    return {s_.secondary, s_.nodes, s_.faces, s_.supports, chosen_.kept, held_opposite, held_on_primary, s_.dimension};
   }
 
   std::optional<BondedNodes> bonded_nodes(const OthersNodes& others)

@@ -17,11 +17,10 @@ bool OppositeSupports::prescribe(const Opposite& opposite, const Point& directio
 {
   if (!std::isfinite(opposite.gap)) return true;
   const auto nodes = primary_.facets[opposite.facet];
-  const Point there = rotated_back(direction);
   double free = 0, all = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const double part = std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]);
-    if (!supports_.holds(primary_.node_id[static_cast<std::size_t>(nodes[k])], there, dimension_)) free += part;
+    if (!hold(nodes[k], direction)) free += part;
     all += part;
   }
   return free < next_to_nothing * all;

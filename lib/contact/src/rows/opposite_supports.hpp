@@ -28,6 +28,11 @@ class OppositeSupports {
   {
   }
 
+  /// Whether supports hold a node of the primary side along a direction.
+  bool hold(Local node, const Point& direction) const
+  {
+    return supports_.holds(primary_.node_id[static_cast<std::size_t>(node)], rotated_back(direction), dimension_);
+  }
   /// Whether supports hold what a line meets, along a direction; true where it meets nothing.
   bool prescribe(const Opposite& opposite, const Point& direction) const;
   /// Whether they leave next to nothing of the direction free.

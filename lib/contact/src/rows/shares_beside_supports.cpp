@@ -30,42 +30,35 @@ Few<Point, 3> held_on_both_sides(const SurfaceNode& node, Global id, std::size_t
   return result;
 }
 
+// The part of what lies opposite a function of a piece that supports leave free along a direction, at the least.
+template <class HeldOnPrimary>
+double part_that_moves(const PieceStore::View& piece, const Point& axis, const HeldOnPrimary& held_on_primary)
+{
+  double least = 1;
+  for (Eigen::Index k = 0; k < piece.covered.size(); ++k) {
+    double free = 0, all = 0;
+    for (std::size_t j = 0; j < piece.nodes.size(); ++j) {
+      const double part = piece.opposite(k, static_cast<Eigen::Index>(j));
+      all += part;
+      if (!held_on_primary(piece.nodes[j], axis)) free += part;
+    }
+    if (all > 0) least = std::min(least, free / all);
+  }
+  return least;
+}
+
 }  // namespace
 
 SharesBesideSupports::SharesBesideSupports(const Side& secondary, const SurfaceNodes& nodes, CutFaces& faces,
                                            const SupportedNodes& supports, std::span<const char> kept,
-                                           const HeldOpposite& held_opposite, int dimension)
+                                           const HeldOpposite& held_opposite, const HeldOnPrimary& held_on_primary, int dimension)
     : secondary_(&secondary), given_(nodes.all.size())
 {
   if (supports.empty()) return;
   for (std::size_t p = 0; p < given_.size(); ++p)
     given_[p] = held_on_both_sides(nodes.all[p], secondary.node_id[static_cast<std::size_t>(nodes.all[p].node)], p, supports,
                                    held_opposite, dimension);
-  const auto takes = [&](std::size_t place, const Point& axis) {
-    return kept[place] && (faces.is_corner(place) || !gives(place, axis));
-  };
-  const auto others = [&](std::size_t face, const PieceStore::View& piece, const Point& axis) {
-    Few<char, most_functions> here;
-    for (Eigen::Index k = 0; k < piece.covered.size(); ++k)
-      here.push_back(piece.covered[k] > 0 && takes(faces.place_of(face, piece, k), axis));
-    return here;
-  };
-  // A node of a face that has nobody to take over along an axis keeps its share; what it has left elsewhere it keeps as well.
-  std::vector<std::pair<std::size_t, Point>> kept_shares;
-  for (const std::size_t f : faces.round())
-    for (const Point& axis : axes_of(f, faces))
-      for (const std::size_t i : faces.pieces(f)) {
-        const auto piece = faces.piece(i);
-        const auto here = others(f, piece, axis);
-        if (piece.covered.sum() > 0 && (!piece.point_facet.empty() || std::ranges::find(here, 1) == here.end()))
-          for (const Local p : faces.surface_nodes_of(f)) kept_shares.emplace_back(static_cast<std::size_t>(p), axis);
-      }
-  for (const auto& [p, axis] : kept_shares) {
-    Axes rest;
-    for (const Point& given : given_[p])
-      if (!same(given, axis)) rest.push_back(given);
-    given_[p] = rest;
-  }
+  find_strays(faces, kept, held_on_primary);
   for (const std::size_t f : faces.near())
     for (const Point& axis : axes_of(f, faces))
       for (const std::size_t i : faces.pieces(f)) {
@@ -73,9 +66,74 @@ SharesBesideSupports::SharesBesideSupports(const Side& secondary, const SurfaceN
         if (!(piece.covered.sum() > 0)) continue;
         other_.add(piece);
         auto copy = other_[other_.size() - 1];
-        make_dual(copy, others(f, piece, axis));
+        make_dual(copy, takers(f, piece, axis, kept, faces));
         others_.push_back({f, i, other_.size() - 1, axis});
       }
+}
+
+// Of the functions of a piece, whether their places take over along an axis.
+Few<char, most_functions> SharesBesideSupports::takers(std::size_t face, const PieceStore::View& piece, const Point& axis,
+                                                       std::span<const char> kept, const CutFaces& faces) const
+{
+  Few<char, most_functions> result;
+  for (Eigen::Index k = 0; k < piece.covered.size(); ++k) {
+    const std::size_t place = faces.place_of(face, piece, k);
+    result.push_back(piece.covered[k] > 0 && kept[place] && (faces.is_corner(place) || !gives(place, axis)));
+  }
+  return result;
+}
+
+// Nodes of the faces beside one, of those that have most nodes in common with it.
+std::vector<std::size_t> SharesBesideSupports::takers_beside(std::size_t face, const Point& axis, std::span<const char> kept,
+                                                             const CutFaces& faces) const
+{
+  const auto own = faces.surface_nodes_of(face);
+  std::vector<std::size_t> result;
+  std::ptrdiff_t most = 1;
+  for (const std::size_t f : faces.round()) {
+    const auto nodes = faces.surface_nodes_of(f);
+    const auto common = std::ranges::count_if(nodes, [&](Local p) { return std::ranges::find(own, p) != own.end(); });
+    if (f == face || common < most) continue;
+    for (const Local p : nodes) {
+      if (!kept[static_cast<std::size_t>(p)] || gives(static_cast<std::size_t>(p), axis)) continue;
+      if (common > most) result.clear();
+      most = common;
+      result.push_back(static_cast<std::size_t>(p));
+    }
+  }
+  std::ranges::sort(result);
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+// Of pieces that have nobody to take over along an axis. A node that keeps its share there keeps as well what it has elsewhere.
+void SharesBesideSupports::find_strays(CutFaces& faces, std::span<const char> kept, const HeldOnPrimary& held_on_primary)
+{
+  constexpr double half = 0.5;  // of what lies opposite, see ContactRows::freedom_of_primary()
+  std::vector<std::pair<std::size_t, Point>> kept_shares;
+  const auto nobody = [&](std::size_t f, const PieceStore::View& piece, const Point& axis) {
+    return std::ranges::none_of(takers(f, piece, axis, kept, faces), [](char takes) { return takes != 0; });
+  };
+  for (const std::size_t f : faces.round())
+    for (const Point& axis : axes_of(f, faces))
+      for (const std::size_t i : faces.pieces(f)) {
+        const auto piece = faces.piece(i);
+        const bool of_nodes = piece.point_facet.empty();
+        if (!(piece.covered.sum() > 0) || (of_nodes && !nobody(f, piece, axis))) continue;
+        if (of_nodes && part_that_moves(piece, axis, held_on_primary) < half)
+          if (auto beside = takers_beside(f, axis, kept, faces); !beside.empty()) {
+            strays_.push_back({f, i, axis, std::move(beside)});
+            continue;
+          }
+        for (const Local p : faces.surface_nodes_of(f)) kept_shares.emplace_back(static_cast<std::size_t>(p), axis);
+      }
+  for (const auto& [p, axis] : kept_shares) {
+    Axes rest;
+    for (const Point& given : given_[p])
+      if (!same(given, axis)) rest.push_back(given);
+    given_[p] = rest;
+  }
+  std::erase_if(strays_, [&](const Stray& stray) { return !nobody(stray.face, faces.piece(stray.piece), stray.axis); });
 }
 
 bool SharesBesideSupports::gives(std::size_t p, const Point& direction) const
@@ -101,28 +159,37 @@ SharesBesideSupports::Axes SharesBesideSupports::axes_of(std::size_t face, const
   return result;
 }
 
+SharesBesideSupports::Share& SharesBesideSupports::share_of(std::size_t place, const Point& axis)
+{
+  auto& shares = shares_[place];
+  const auto found = std::ranges::find_if(shares, [&](const Share& share) { return same(share.axis, axis); });
+  return found != shares.end() ? *found : *shares.insert(shares.end(), {axis, {}});
+}
+
 void SharesBesideSupports::take_functions(CutFaces& faces)
 {
+  // What functions, of which the integrals are given, bring to a share.
+  const auto add = [&](Share& share, std::size_t face, const PieceStore::View& piece, const auto& mass, const auto& opposite) {
+    const auto nodes = secondary_->faces[face];
+    const auto term = [&](Local node, bool on_primary, double value) {
+      if (value != 0) share.terms.push_back({node, on_primary, value});
+    };
+    for (std::size_t j = 0; j < nodes.size(); ++j) term(nodes[j], false, mass(static_cast<Eigen::Index>(j)));
+    for (std::size_t j = 0; j < piece.nodes.size(); ++j) term(piece.nodes[j], true, opposite(static_cast<Eigen::Index>(j)));
+  };
   for (const auto& other : others_) {
     const auto now = faces.piece(other.piece), then = other_[other.copy];
-    const auto nodes = secondary_->faces[other.face];
-    for (Eigen::Index k = 0; k < then.covered.size(); ++k) {
-      if (!(then.covered[k] > 0)) continue;  // of nobody who takes
-      auto& shares = shares_[faces.place_of(other.face, now, k)];
-      auto found = std::ranges::find_if(shares, [&](const Share& share) { return same(share.axis, other.axis); });
-      if (found == shares.end()) found = shares.insert(shares.end(), {other.axis, {}});
-      const auto add = [&](Local node, bool on_primary, double value) {
-        if (value != 0) found->terms.push_back({node, on_primary, value});
-      };
-      for (std::size_t j = 0; j < nodes.size(); ++j) {
-        const auto column = static_cast<Eigen::Index>(j);
-        add(nodes[j], false, then.mass(k, column) - now.mass(k, column));
-      }
-      for (std::size_t j = 0; j < now.nodes.size(); ++j) {
-        const auto column = static_cast<Eigen::Index>(j);
-        add(now.nodes[j], true, then.opposite(k, column) - now.opposite(k, column));
-      }
-    }
+    for (Eigen::Index k = 0; k < then.covered.size(); ++k)
+      if (then.covered[k] > 0)  // else of nobody who takes
+        add(share_of(faces.place_of(other.face, now, k), other.axis), other.face, now, then.mass.row(k) - now.mass.row(k),
+            then.opposite.row(k) - now.opposite.row(k));
+  }
+  for (const auto& stray : strays_) {
+    const auto piece = faces.piece(stray.piece);
+    const double part = 1.0 / static_cast<double>(stray.takers.size());
+    for (const std::size_t place : stray.takers)
+      add(share_of(place, stray.axis), stray.face, piece, part * piece.mass.colwise().sum(),
+          part * piece.opposite.colwise().sum());
   }
   for (auto& [place, shares] : shares_)
     for (auto& share : shares) merge_terms(share.terms);

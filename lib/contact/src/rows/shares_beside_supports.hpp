@@ -6,7 +6,10 @@
 //
 //     integral psi t . [u]  +  (t . a) integral (psi^a - psi) a . [u].
 //
-// Where primary and secondary nodes lie opposite each other nothing is left to take over.
+// Where primary and secondary nodes lie opposite each other nothing is left to take over. A face all of whose nodes are held so,
+// as a triangle across a corner, has nobody to take over: if most of what lies opposite is held as well, nodes of the faces
+// beside it take equal parts of the constant 1 in its place, so that a constant traction stays one. Else its nodes keep their
+// rows.
 #pragma once
 
 #include <functional>
@@ -28,9 +31,12 @@ class SharesBesideSupports {
   SharesBesideSupports() = default;
   /// Whether supports hold what lies opposite a surface node along a direction.
   using HeldOpposite = std::function<bool(std::size_t p, const Point& axis)>;
+  /// And a node of the primary side.
+  using HeldOnPrimary = std::function<bool(Local node, const Point& axis)>;
   /// `faces` with their integrals, which become functions of the places that are `kept` later.
   SharesBesideSupports(const Side& secondary, const SurfaceNodes& nodes, CutFaces& faces, const SupportedNodes& supports,
-                       std::span<const char> kept, const HeldOpposite& held_opposite, int dimension);
+                       std::span<const char> kept, const HeldOpposite& held_opposite, const HeldOnPrimary& held_on_primary,
+                       int dimension);
 
   /// Whether a surface node leaves its share along a direction to others.
   bool gives(std::size_t p, const Point& direction) const;
@@ -49,17 +55,30 @@ class SharesBesideSupports {
     std::size_t face, piece, copy;  // in other_
     Point axis;
   };
-  Axes axes_of(std::size_t face, const CutFaces& faces) const;
-
-  const Side* secondary_ = nullptr;
-  std::vector<Axes> given_;  // of each surface node; orthonormal
-  PieceStore other_;
-  std::vector<Other> others_;
+  // A piece along an axis of which nobody has a function, and who takes the constant.
+  struct Stray {
+    std::size_t face, piece;
+    Point axis;
+    std::vector<std::size_t> takers;
+  };
   // Integrals of psi^a - psi, as terms.
   struct Share {
     Point axis;
     std::vector<Term> terms;
   };
+  Axes axes_of(std::size_t face, const CutFaces& faces) const;
+  void find_strays(CutFaces& faces, std::span<const char> kept, const HeldOnPrimary& held_on_primary);
+  std::vector<std::size_t> takers_beside(std::size_t face, const Point& axis, std::span<const char> kept,
+                                         const CutFaces& faces) const;
+  Few<char, most_functions> takers(std::size_t face, const PieceStore::View& piece, const Point& axis, std::span<const char> kept,
+                                   const CutFaces& faces) const;
+  Share& share_of(std::size_t place, const Point& axis);
+
+  const Side* secondary_ = nullptr;
+  std::vector<Axes> given_;  // of each surface node; orthonormal
+  PieceStore other_;
+  std::vector<Other> others_;
+  std::vector<Stray> strays_;
   std::unordered_map<std::size_t, std::vector<Share>> shares_;  // of places that get something
   std::vector<std::vector<Term>> handed_;                       // to the row at work
 };
