@@ -36,6 +36,9 @@ if(MORTISE_SANITIZE)
   target_compile_options(mortise_options INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer)
   target_link_options(mortise_options INTERFACE -fsanitize=address,undefined)
 endif()
+if(MORTISE_FUZZ_READERS)
+  target_compile_options(mortise_options INTERFACE -fsanitize=fuzzer-no-link -fno-sanitize-recover=all)
+endif()
 
 # Headers of others that most files read, parsed once: Tpetra's alone took 7 of some 12 seconds a file. Two sets, so that a module without
 # distributed vectors still does not see Trilinos. Off with -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON, as in the preset debug: what
