@@ -41,6 +41,10 @@ mortise_regression(bond_at_symmetry VARIANT .coarse EXPECTED cases/bond_at_symme
 mortise_regression(touches_in_a_node RANKS 1 STUDY_RANKS 2)
 mortise_regression(stands_on_corner RANKS 1 STUDY_RANKS 2)
 mortise_regression(bond_in_corner RANKS 1 3 STUDY_RANKS 2)
+mortise_regression(soft_film RANKS 1 STUDY_RANKS 2 3)
+mortise_regression(soft_film VARIANT .thicker RANKS 1 2 STUDY_RANKS 3 EXPECTED cases/soft_film.thicker.expected.json
+  SET "mesh.blocks.film.size=[20, 0.02]" "mesh.blocks.upper.origin=[0, 5.02]" "couplings.ram.point=[10, 10.02]"
+      materials.rubber.poisson_ratio=0.49 solver.tolerance=1e-8)
 mortise_regression(bent_ring RANKS 1)
 mortise_regression(tube_of_one_layer RANKS 1 STUDY_RANKS 2)
 mortise_regression(tube_of_one_layer VARIANT .triangles RANKS 1 EXPECTED cases/tube_of_one_layer.triangles.expected.json

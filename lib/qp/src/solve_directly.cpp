@@ -38,7 +38,7 @@ class DirectSolver : public Solver {
       known.answer->radii = set.radii();
     }
     if (!found.converged) return known;  // a guess of states that are none leads faces astray
-    if (!accepted) accepted = improve(problem, found, goal);
+    if (!accepted) accepted = improve_with_all(problem, found, goal);
     if (goal.allowed_error) goal.exact = Limits::rounding_of_direct;
     if (found.reaction) known.by_matrices = found;
     Solution solution(found.x, found.x, found.nu);
@@ -106,16 +106,46 @@ class DirectSolver : public Solver {
     auto found = matrices_.solve(problem.right, problem.set);
     if ((found.converged && found.settled) || found.slides) return {found};
     if (found.converged && matrices_.rough_products)
-      if (auto accepted = improve(problem, found, goal)) return {found, std::move(accepted)};
+      if (auto accepted = improve(problem, found, goal).accepted) return {found, std::move(accepted)};
     if (found.converged && matrices_.instead_of_none) return {found};
-    if (matrices_.instead) others_ = std::exchange(matrices_.instead, {})();
-    if (!others_) return {found};
+    if (!has_others()) return {found};
     auto next = others_->solve(problem.right, problem.set);
     if (!next.converged) return {found};
     if (found.converged && !next.settled) return {found};
+    take_others();
+    return {next};
+  }
+
+  // Makes them where they are to be had.
+  bool has_others()
+  {
+    if (matrices_.instead) others_ = std::exchange(matrices_.instead, {})();
+    return others_.has_value();
+  }
+
+  void take_others()
+  {
     std::swap(matrices_, *others_);
     faces_ = face_newton_with(matrices_.inverse.get(), programme_, means_);
-    return {next};
+  }
+
+  // Where much is left that the matrices differ by, as dense ones of a soft film do between stiff bodies, with the other ones, if
+  // they come nearer.
+  std::optional<Solution> improve_with_all(const Problem& problem, ExplicitProgramme::Result& found, const Goal& goal)
+  {
+    auto [accepted, exact] = improve(problem, found, goal);
+    if (accepted || exact || !found.reaction || !goal.energy_norm || matrices_.instead_of_none) return accepted;
+    const double error = judge(problem, found, goal).error;
+    if (!(error > Limits::much * goal.energy_norm(found.x, found.nu)) || !has_others()) return {};
+    auto next = others_->solve(problem.right, problem.set);
+    if (!next.converged || !next.settled) return {};
+    take_others();
+    accepted = improve(problem, next, goal).accepted;
+    if (accepted || judge(problem, next, goal).error < error)
+      found = std::move(next);
+    else
+      take_others();
+    return accepted;
   }
 
   // A residual that is asked for may be smaller than rounding of products lets it become. The error is then known all the same.
@@ -125,12 +155,17 @@ class DirectSolver : public Solver {
     return goal;
   }
 
-  // Takes away what the matrices differ by. Returns the solution if it can be judged and will do.
-  std::optional<Solution> improve(const Problem& problem, ExplicitProgramme::Result& found, const Goal& goal)
+  struct Improved {
+    std::optional<Solution> accepted;  // if it can be judged and will do
+    bool exact;                        // nothing is left that the matrices differ by
+  };
+
+  // Takes away what the matrices differ by.
+  Improved improve(const Problem& problem, ExplicitProgramme::Result& found, const Goal& goal)
   {
-    if (matrices_.differs) correct(problem, found, goal);
-    if (!matrices_.rough_products || !goal.allowed_error) return {};
-    return judged(problem, found, goal);
+    const bool exact = !matrices_.differs || correct(problem, found, goal);
+    if (!matrices_.rough_products || !goal.allowed_error) return {{}, exact};
+    return {judged(problem, found, goal), exact};
   }
 
   // Where products are too rough to show what the matrices found, it is judged in place of `solution`.
@@ -145,39 +180,56 @@ class DirectSolver : public Solver {
     solution = std::move(*other);
   }
 
-  // A solution by the matrices, x with nu and s, solves the programme with b + d in place of b, d = A x - b + G'nu - s, and so is
-  // off by no more than d in the norm of A^-1. Where that is nothing, it is the solution, though products with A may be too rough
-  // for what states follow from: of a thin body they turn figures that x does not have into motions that open contact. One
-  // product.
-  std::optional<Solution> judged(const Problem& problem, const ExplicitProgramme::Result& found, const Goal& goal)
+  // A solution by the matrices, x with nu and s, solves the programme with b + d in place of b, d = A x - b + G'nu - s for the nu
+  // that leaves least, and so is off by no more than d in the norm of A^-1. Where that is nothing, it is the solution, though
+  // products with A may be too rough for what states follow from: of a thin body they turn figures that x does not have into
+  // motions that open contact. One product.
+  Solution judge(const Problem& problem, const ExplicitProgramme::Result& found, const Goal& goal)
   {
-    if (!found.reaction) return {};
     Solution result(found.x, found.x, found.nu);
     problem.hessian.apply(found.x, result.gradient);
-    const double size_of_x = std::sqrt(std::max(result.gradient.dot(found.x), 0.0));
     result.gradient.update(-1, problem.right.b, 1);
     Vector defect(result.gradient, Teuchos::Copy), error(defect.getMap());
     defect.update(-1, *found.reaction, 1);
     problem.equality.add_transpose(1, found.nu, defect);
+    problem.equality.project(defect);
     matrices_.inverse->apply(defect, error);
     result.error = std::sqrt(std::max(defect.dot(error), 0.0));
-    const double size = relative_size(problem, limits::Every::finest);
-    if (!(size > 0)) return {};
-    result.projected_gradient = defect.norm2() / size;
+    result.projected_gradient = defect.norm2() / relative_size(problem, limits::Every::finest);
     const auto& equality = problem.equality;
     if (const double forces = found.x.norm2(); equality.size() > 0 && forces > 0)
       result.equality = equality.norm(problem.right.e - equality.apply(found.x)) / forces;
     result.outer_iterations = 1;
-    const double energy_norm = goal.energy_norm ? goal.energy_norm(found.x, found.nu) : size_of_x;
-    // What a residual may be, and an error, in its place.
-    const double residual =
-        goal.allowed_error ? limits::Every::largest_residual : std::max(goal.residual, Limits::rough_residual);
-    const double allowed = goal.allowed_error ? Limits::rounding_of_direct : Limits::makes_up_for_residual;
-    result.converged = result.error <= allowed * energy_norm && result.projected_gradient <= residual &&
-                       obeys(problem, found.x) &&
+    return result;
+  }
+
+  // The same if it will do.
+  std::optional<Solution> judged(const Problem& problem, const ExplicitProgramme::Result& found, const Goal& goal)
+  {
+    if (!found.reaction || !(relative_size(problem, limits::Every::finest) > 0)) return {};
+    Solution result = judge(problem, found, goal);
+    const double energy_norm = goal.energy_norm ? goal.energy_norm(found.x, found.nu) : norm_of(found.x, problem, result);
+    result.converged = result.error <= allowed_error(result, energy_norm, goal) && obeys(problem, found.x) &&
                        (!goal.incompatibility || goal.incompatibility(found.x, found.nu) <= limits::Every::nearly_compatible);
     if (!result.converged) return {};
     return result;
+  }
+
+  // In the norm of A, from A x - b.
+  static double norm_of(const Vector& x, const Problem& problem, const Solution& solution)
+  {
+    return std::sqrt(std::max(x.dot(solution.gradient) + x.dot(problem.right.b), 0.0));
+  }
+
+  // What the error of a solution by the matrices may be, from its residual.
+  static double allowed_error(const Solution& solution, double energy_norm, const Goal& goal)
+  {
+    if (goal.allowed_error)
+      return solution.projected_gradient > limits::Every::largest_residual
+                 ? 0
+                 : std::max(Limits::rounding_of_direct * energy_norm, goal.allowed_error(solution.x, solution.nu));
+    if (solution.projected_gradient <= goal.residual) return Limits::rounding_beside_residual * energy_norm;
+    return solution.projected_gradient <= Limits::rough_residual ? Limits::makes_up_for_residual * energy_norm : 0;
   }
 
   // Whether x lies in Omega, with friction within its cones, and balances the loads.
@@ -193,8 +245,8 @@ class DirectSolver : public Solver {
 
   // With another matrix M in place of A a solution x leaves the defect A x - b + G'nu - s, s = M x - b + G'nu, which is (A - M)
   // x: less that, b gives the next one [Stetter, The defect correction principle and discretization methods, Numer. Math. 29
-  // (1978)]. One product each.
-  void correct(const Problem& problem, ExplicitProgramme::Result& found, const Goal& goal)
+  // (1978)]. One product each. Whether what is left is what was asked for.
+  bool correct(const Problem& problem, ExplicitProgramme::Result& found, const Goal& goal)
   {
     const auto& equality = problem.equality;
     const double enough =
@@ -217,9 +269,8 @@ class DirectSolver : public Solver {
         least = size;
         best = found;
       }
-      if (!nearer || step == Limits::most_corrections ||
-          (size <= enough && is_nothing(felt, found, goal) && fits_together(found, goal)))
-        break;
+      if (!nearer || step == Limits::most_corrections) break;
+      if (size <= enough && is_nothing(felt, found, goal) && fits_together(found, goal)) return true;
       linear.update(-1, defect, 1);
       right_side += lacking;
       auto next = matrices_.go_on(problem.right, linear, right_side, problem.set, found);
@@ -227,6 +278,7 @@ class DirectSolver : public Solver {
       found = std::move(next);
     }
     if (best) found = std::move(*best);
+    return false;
   }
 
   // Whether a defect is one of displacements that take hardly any energy.
