@@ -40,6 +40,7 @@ mortise_regression(bond_at_symmetry VARIANT .coarse EXPECTED cases/bond_at_symme
   SET mesh.constants.lower=3 mesh.constants.upper=4)
 mortise_regression(touches_in_a_node RANKS 1 STUDY_RANKS 2)
 mortise_regression(stands_on_corner RANKS 1 STUDY_RANKS 2)
+mortise_regression(few_bent_faces RANKS 1 STUDY_RANKS 2)
 mortise_regression(bond_in_corner RANKS 1 3 STUDY_RANKS 2)
 mortise_regression(soft_film RANKS 1 STUDY_RANKS 2 3)
 mortise_regression(soft_film VARIANT .thicker RANKS 1 2 STUDY_RANKS 3 EXPECTED cases/soft_film.thicker.expected.json

@@ -26,12 +26,13 @@ std::vector<Warning> idle_contacts(const Rows& rows, const Communicator& comm)
   for (std::size_t i = 1; i < std::min(idle.size(), told); ++i) others += (i > 1 ? ", " : "; nor have ") + idle[i]->name;
   if (idle.size() > told) others += fmt::format(" and {} more", idle.size() - told);
   const auto& first = *idle.front();
-  Warning w{"idle_contact",
-            fmt::format("contact {} has no point: its surfaces do not face each other within the search distance, or share less "
-                        "than a hundredth of a cell, and nothing keeps them apart{}",
-                        first.name, others),
-            first.cyclic ? "look at angle, axis and center of the sector and at the names, or set a larger search_distance"
-                         : "look at the names, set a larger search_distance, or refine the secondary side"};
+  Warning w{
+      "idle_contact",
+      fmt::format("contact {} has no point: its surfaces do not face each other within the search distance, share less than "
+                  "a hundredth of a cell, or are held by supports along their normals; nothing else keeps them apart{}",
+                  first.name, others),
+      first.cyclic ? "look at angle, axis and center of the sector and at the names, or set a larger search_distance"
+                   : "look at the names, set a larger search_distance, or refine the secondary side"};
   w.contact = first.name;
   w.boundary = first.secondary;
   w.limit = 1;

@@ -135,13 +135,13 @@ class DirectSolver : public Solver {
   {
     auto [accepted, exact] = improve(problem, found, goal);
     if (accepted || exact || !found.reaction || !goal.energy_norm || matrices_.instead_of_none) return accepted;
-    const double error = judge(problem, found, goal).error;
+    const double error = judge(problem, found).error;
     if (!(error > Limits::much * goal.energy_norm(found.x, found.nu)) || !has_others()) return {};
     auto next = others_->solve(problem.right, problem.set);
     if (!next.converged || !next.settled) return {};
     take_others();
     accepted = improve(problem, next, goal).accepted;
-    if (accepted || judge(problem, next, goal).error < error)
+    if (accepted || judge(problem, next).error < error)
       found = std::move(next);
     else
       take_others();
@@ -184,7 +184,7 @@ class DirectSolver : public Solver {
   // that leaves least, and so is off by no more than d in the norm of A^-1. Where that is nothing, it is the solution, though
   // products with A may be too rough for what states follow from: of a thin body they turn figures that x does not have into
   // motions that open contact. One product.
-  Solution judge(const Problem& problem, const ExplicitProgramme::Result& found, const Goal& goal)
+  Solution judge(const Problem& problem, const ExplicitProgramme::Result& found)
   {
     Solution result(found.x, found.x, found.nu);
     problem.hessian.apply(found.x, result.gradient);
@@ -207,7 +207,7 @@ class DirectSolver : public Solver {
   std::optional<Solution> judged(const Problem& problem, const ExplicitProgramme::Result& found, const Goal& goal)
   {
     if (!found.reaction || !(relative_size(problem, limits::Every::finest) > 0)) return {};
-    Solution result = judge(problem, found, goal);
+    Solution result = judge(problem, found);
     const double energy_norm = goal.energy_norm ? goal.energy_norm(found.x, found.nu) : norm_of(found.x, problem, result);
     result.converged = result.error <= allowed_error(result, energy_norm, goal) && obeys(problem, found.x) &&
                        (!goal.incompatibility || goal.incompatibility(found.x, found.nu) <= limits::Every::nearly_compatible);

@@ -28,6 +28,19 @@ Point normal_at(const Side& side, const SurfaceNodes& surface_nodes, const Oppos
   return sum;
 }
 
+// Whether a facet is part of a face of second order that is bent about as much: its nodes say that it is round, and its facets
+// stand back from what it is.
+bool is_of_bent_face(const Side& side, std::size_t facet, double turn)
+{
+  constexpr double part = 0.25;
+  const auto face = static_cast<std::size_t>(side.face_of[facet]);
+  const Point normal = side.geometry(facet).normal();
+  for (auto other = static_cast<std::size_t>(side.first_facet[face]);
+       other < static_cast<std::size_t>(side.first_facet[face + 1]); ++other)
+    if (angle_between(normal, side.geometry(other).normal()) > part * turn) return true;
+  return false;
+}
+
 // The angle of an arc tells how far it stands from its chord.
 double rise_of(double turn, double chord)
 {
@@ -43,6 +56,7 @@ void note_turns(const Side& secondary, const SurfaceNodes& surface_nodes, const 
   constexpr double border = 0.1;     // of a shape function: a place nearer to the border of a facet says little of it
   constexpr double on_a_flat = 0.1;  // of the rise: a face that lies so near on the plane of another one is a flat on a flat
   const auto note = [&](const Side& side, std::size_t facet, double turn) {
+    if (is_of_bent_face(side, facet, turn)) return;
     const auto geometry = side.geometry(facet);
     note_turn(all, turn, rise_of(turn, geometry.size()), geometry.centre());
   };
