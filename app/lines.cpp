@@ -223,13 +223,12 @@ void print_reactions(const io::StateSummary& s, Log& log)
   if (s.reactions.size() > most) log.line("  and {} supports more, in summary.json", s.reactions.size() - most);
 }
 
-void print_results(const post::Results& results, const io::Summary& s, Log& log)
+void print_results(const post::Verdict& verdict, const post::Balance& b, const io::Summary& s, Log& log)
 {
-  const auto& b = results.balance;
   const auto vector = [](const Point& p) { return fmt::format("({:.5g}, {:.5g}, {:.5g})", p[0], p[1], p[2]); };
   log.line("");
-  log.line("{}", results.verdict.headline);
-  if (!results.verdict.reason.empty()) log.line("  {}", results.verdict.reason);
+  log.line("{}", verdict.headline);
+  if (!verdict.reason.empty()) log.line("  {}", verdict.reason);
   const auto part = [&](const char* name, const Point& force) {
     return force.isZero(0) ? "" : fmt::format("{} {}, ", name, vector(force));
   };

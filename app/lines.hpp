@@ -6,7 +6,8 @@
 #include "analysis/warnings.hpp"
 #include "feti/subdomain_operator.hpp"
 #include "io/summary.hpp"
-#include "post/results.hpp"
+#include "post/balance.hpp"
+#include "post/verdict.hpp"
 
 namespace mortise {
 
@@ -26,7 +27,7 @@ void print_state(const model::LoadState& state, std::size_t index, std::size_t c
 /// After a load step that is not the last.
 void print_step(const io::Summary& summary, Log& log);
 /// After the last load step: forces, stresses, contacts, residuals.
-void print_results(const post::Results& results, const io::Summary& summary, Log& log);
+void print_results(const post::Verdict& verdict, const post::Balance& balance, const io::Summary& summary, Log& log);
 /// A line for each probe; nothing without.
 void print_probes(const io::StateSummary& summary, Log& log);
 /// What the rank that sends most has sent; nothing on one rank, or where the build does not count.

@@ -74,7 +74,7 @@ bool Report::LoadSteps::gave_up(const analysis::StepState& state)
 }
 
 auto Report::LoadSteps::write(const Begun& begun, const analysis::StepState& state, const post::Probes& probes,
-                              post::Results results, const std::optional<Written>& before) -> Written
+                              const post::Results& results, const std::optional<Written>& before) -> Written
 {
   const auto& comm = context_.comm;
   const auto& model = assembly_.model();
@@ -90,7 +90,8 @@ auto Report::LoadSteps::write(const Begun& begun, const analysis::StepState& sta
   {
     const auto scope = context_.timers.scope("output");
     files_.write(found, is_due(begun, summary.converged), begun.index == states_ || !summary.converged, comm);
-    probe_files_.write(model.decomposition().catalogue, begun.acts, probes, results, summary.probes, comm);
+    probe_files_.write(model.decomposition().catalogue, begun.acts, probes, results.fields.interior.sampled, summary.probes,
+                       comm);
     collectively(comm, [&] {
       if (!comm.root()) return;
       io::write_text(deck_.output.directory + "/history.csv", run_.history_.text());
@@ -99,7 +100,7 @@ auto Report::LoadSteps::write(const Begun& begun, const analysis::StepState& sta
   }
   run_.state_is_written_ = true;
   run_.tell_stage("output", "output");  // does not end the run: a state that is written is to be kept for --resume
-  return {begun, std::move(summary), std::move(results)};
+  return {begun, std::move(summary), results.forces.balance, results.verdict};
 }
 
 void Report::LoadSteps::keep(const Written& written, const analysis::StepState& state) const
@@ -160,19 +161,18 @@ ExitStatus Report::LoadSteps::end(Written& last) const
 {
   auto& [comm, log, timers] = context_;
   auto& summary = last.summary;
-  const auto& results = last.results;
   output::note_communication(timers, traffic() - run_.before_all_, comm, summary);
   const auto spreads = timers.spread(comm);
   for (const auto& spread : spreads) summary.time[spread.stage] = spread.max;
   write_summary(summary, true);
-  print_results(results, summary, log);
+  print_results(last.verdict, last.balance, summary, log);
   print_probes(summary, log);
   log.line("  time and memory     {:.2f} s, {:.2f} GB; results in {}", summary.time["total"], summary.peak_memory_bytes / 1e9,
            deck_.output.directory);
   print_communication(summary, log);
   print_times(spreads, log);
   print_warnings(run_.warnings_, log);
-  const auto status = results.verdict.status;
+  const auto status = last.verdict.status;
   if (status == ExitStatus::solved) restart_.remove();
   return status;
 }

@@ -25,7 +25,8 @@ class Report::LoadSteps {
   struct Written {
     Begun state;
     io::Summary summary;  ///< of all states that are written
-    post::Results results;
+    post::Balance balance;
+    post::Verdict verdict;
   };
 
   /// `states`: how many equilibria there are to be. `restart` keeps a record of each but the last, until all are solved.
@@ -41,7 +42,7 @@ class Report::LoadSteps {
   /// The solver has come to an end with this state. True if it gave up.
   bool gave_up(const analysis::StepState& state);
   /// The files of a state, which has been evaluated; `before` as for begin().
-  Written write(const Begun& begun, const analysis::StepState& state, const post::Probes& probes, post::Results results,
+  Written write(const Begun& begun, const analysis::StepState& state, const post::Probes& probes, const post::Results& results,
                 const std::optional<Written>& before);
   /// Its record, from which a run goes on.
   void keep(const Written& written, const analysis::StepState& state) const;

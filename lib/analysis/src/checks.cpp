@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "model/crossed_bodies.hpp"
 #include "model/patterns.hpp"
@@ -86,21 +87,22 @@ model::LoadState at_most(const model::Model& model)
   return result;
 }
 
-std::vector<post::SupportLoad> support_loads(const model::Model& model, const post::Results& results, const Communicator& comm)
+std::vector<post::SupportLoad> support_loads(const model::Model& model, std::span<const post::Reaction> reactions,
+                                             const Communicator& comm)
 {
   const auto& deck = model.deck();
   std::vector<post::SupportLoad> result;
   for (std::size_t i = 0; i < deck.supports.size(); ++i) {
     if (deck.supports[i].boundary.empty()) continue;
     const auto facts = model.facts(deck.supports[i].boundary, comm);
-    auto force = results.reactions[i].force;
+    auto force = reactions[i].force;
     if (deck.axisymmetric()) force[0] = 0;  // what holds a ring together is no resultant
     result.push_back({deck.supports[i].boundary, force, facts.area, facts.centre, facts.mean_modulus});
   }
   return result;
 }
 
-std::vector<post::PointForce> point_forces(const model::Model& model, const model::LoadState& state, const post::Results& results)
+std::vector<post::PointForce> point_forces(const model::Model& model, const model::LoadState& state, const post::Forces& forces)
 {
   const auto& deck = model.deck();
   const auto length = [](const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); };
@@ -110,19 +112,18 @@ std::vector<post::PointForce> point_forces(const model::Model& model, const mode
       result.push_back({"load " + deck.loads[i].name, std::abs(state.load[i]) * length(*deck.loads[i].force)});
   for (std::size_t i = 0; i < deck.supports.size(); ++i)
     if (!deck.supports[i].points.empty())
-      result.push_back({"support " + deck.supports[i].name, length(results.reactions[i].force)});
+      result.push_back({"support " + deck.supports[i].name, length(forces.reactions[i].force)});
   auto spring = deck.springs.begin();
-  for (const auto& found : results.springs) result.push_back({"spring " + (spring++)->first, std::abs(found.force)});
+  for (const auto& found : forces.springs) result.push_back({"spring " + (spring++)->first, std::abs(found.force)});
   return result;
 }
 
 // A surface that closes where the search for contact ended may have closed farther on as well.
-std::vector<Warning> short_searches(const Rows& rows, const post::Results& results, const Communicator& comm)
+std::vector<Warning> short_searches(const Rows& rows, std::span<const contact::ContactNodeState> states, const Communicator& comm)
 {
   constexpr double close = 0.7;  // of the search distance
   const auto& pairs = rows.pairs;
   const auto& contacts = rows.constraints.contacts;
-  const auto& states = results.contact.states;
   const auto reaches = contact::search_distances(pairs, comm);
   std::vector<post::Found> widest(pairs.size());
   for (std::size_t i = 0; i < states.size(); ++i)
@@ -221,7 +222,7 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
     for (const auto& material : model::material_names(model::body_entry(deck, decomposition.catalogue.bodies[b].group)->second))
       softest[b] = std::min(softest[b], deck.materials.at(material).modulus());
   const auto& pairs = state.rows->pairs;
-  const auto& contact = results.contact;
+  const auto& [fields, contact, forces, accuracy, neglected, verdict] = results;
   auto result = post::large_displacements(decomposition, sizes, state.displacement, comm);
   append(result, post::inverted_cells(decomposition, state.displacement, comm));
   append(result,
@@ -230,33 +231,33 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
                                    state.displacement, comm));
   append(result, post::rolled_contacts(pairs, state.rows->constraints.contacts, contact.states, decomposition, deck.kinematics,
                                        state.displacement, comm));
-  append(result, post::large_turns(results.turn, pairs, names));
+  append(result, post::large_turns(neglected.turn, pairs, names));
   append(result, post::large_pressures(contact.surfaces, pairs, softest, names, comm));
   append(result, post::narrow_contacts(contact.surfaces, contact.states, pairs, state.before.unfelt(), comm));
   append(result, post::scattered_contacts(contact.surfaces, pairs, softest, comm));
-  append(result, post::lost_moments(results.moments, pairs, results.balance.acting));
+  append(result, post::lost_moments(neglected.moments, pairs, forces.balance.acting));
   append(result,
          post::loose_fits(contact.states, pairs, *std::ranges::min_element(softest), *std::ranges::max_element(sizes), comm));
   std::vector<double> areas;
   for (const auto& resultant : contact.resultants) areas.push_back(resultant.area);
-  append(result, post::tied_preloads(state.rows->constraints.pretension_sections, results.shortenings, areas, pairs,
+  append(result, post::tied_preloads(state.rows->constraints.pretension_sections, forces.shortenings, areas, pairs,
                                      *std::ranges::max_element(softest)));
-  append(result, post::frictions_across_gaps(contact.states, pairs, results.balance.acting, comm));
+  append(result, post::frictions_across_gaps(contact.states, pairs, forces.balance.acting, comm));
   append(result, post::pressing_overlaps(
                      {state.rows->constraints.contacts.nodes, contact.states, state.rows->initial_gaps, pairs, contact.surfaces},
-                     2 * results.stress.strain_energy, *std::ranges::min_element(softest), comm));
-  append(result, post::strained_supports(support_loads(model, results, comm), results.balance.acting));
-  append(result, post::point_forces(point_forces(model, state.rows->acts, results), results.balance.acting));
-  if (results.verdict.status == ExitStatus::solved)
-    append(result, post::unreached_tolerance(results.residuals, deck.solver.programme.tolerance.value.value_or(0),
-                                             results.algebraic_error));
-  append(result, post::coarse_mesh(results.mesh_error, names));
-  append(result, post::coarse_secondaries(results.contact_errors, results.mesh_error.squared_norm, pairs));
-  append(result, post::facet_push(results.balance.push_of_facets, results.balance.gauges));
-  append(result, post::unresisted_loads(results.unresisted, names));
-  append(result, post::weak_stresses(applied_stresses(model, at_most(model), comm), results.stress.largest_von_mises,
+                     2 * fields.stress.strain_energy, *std::ranges::min_element(softest), comm));
+  append(result, post::strained_supports(support_loads(model, forces.reactions, comm), forces.balance.acting));
+  append(result, post::point_forces(point_forces(model, state.rows->acts, forces), forces.balance.acting));
+  if (verdict.status == ExitStatus::solved)
+    append(result, post::unreached_tolerance(accuracy.residuals, deck.solver.programme.tolerance.value.value_or(0),
+                                             accuracy.algebraic_error));
+  append(result, post::coarse_mesh(accuracy.mesh_error, names));
+  append(result, post::coarse_secondaries(accuracy.contact_errors, accuracy.mesh_error.squared_norm, pairs));
+  append(result, post::facet_push(forces.balance.push_of_facets, forces.balance.gauges));
+  append(result, post::unresisted_loads(forces.unresisted, names));
+  append(result, post::weak_stresses(applied_stresses(model, at_most(model), comm), fields.stress.largest_von_mises,
                                      *std::ranges::min_element(softest), names));
-  append(result, short_searches(*state.rows, results, comm));
+  append(result, short_searches(*state.rows, contact.states, comm));
   append(result, crossings(model, state.displacement, names, comm));
   for (auto& warning : result) warning.step = state.rows->acts.step;
   return result;

@@ -364,15 +364,16 @@ post::Results evaluate(const Assembly& assembly, const StepState& state, const p
     return post::evaluate(equilibrium, bodies, comm);
   }();
   const auto motions = assembly.model().motions_of_points(state.displacement, comm);
-  for (std::size_t i = 0; i < motions.size(); ++i) results.couplings[i].motion = motions[i];
+  for (std::size_t i = 0; i < motions.size(); ++i) results.forces.couplings[i].motion = motions[i];
   if (results.verdict.status == ExitStatus::no_equilibrium) throw Error(results.verdict.status, results.verdict.reason);
+  auto& fields = results.fields;
   if (probes.any_inside()) {
     const auto scope = context.timers.scope("interior");
-    results.interior = post::evaluate_interior(bodies, probes, state.displacement, results.stress, comm);
+    fields.interior = post::evaluate_interior(bodies, probes, state.displacement, fields.stress, comm);
   }
   if (!probes.extremes.empty())
-    results.extremes = post::find_extremes(bodies.decomposition, probes, state.displacement, results.stress, results.interior,
-                                           state.rows->pairs, results.contact.surfaces, comm);
+    fields.extremes = post::find_extremes(bodies.decomposition, probes, state.displacement, fields.stress, fields.interior,
+                                          state.rows->pairs, results.contact.surfaces, comm);
   return results;
 }
 

@@ -101,18 +101,18 @@ TEST(LoadSteps, APressedColumn)
   run.solve_all();
   const auto& r = run.results.at(0);
   EXPECT_EQ(r.verdict.status, ExitStatus::solved) << r.verdict.reason;
-  EXPECT_NEAR(r.max_displacement, pressure / young * height, 1e-9);
-  EXPECT_NEAR(r.stress.largest_von_mises.value, pressure, 1e-7);
-  EXPECT_NEAR(r.stress.strain_energy, 0.5 * pressure * pressure / young * height * width * width, 1e-9);
-  expect_near(r.reactions.at(0).force, {0, 0, pressure});
-  expect_near(r.reactions.at(1).force, {0, 0, 0});
+  EXPECT_NEAR(r.fields.max_displacement, pressure / young * height, 1e-9);
+  EXPECT_NEAR(r.fields.stress.largest_von_mises.value, pressure, 1e-7);
+  EXPECT_NEAR(r.fields.stress.strain_energy, 0.5 * pressure * pressure / young * height * width * width, 1e-9);
+  expect_near(r.forces.reactions.at(0).force, {0, 0, pressure});
+  expect_near(r.forces.reactions.at(1).force, {0, 0, 0});
   const Point contact = r.contact.resultants.at(0).force;
   EXPECT_NEAR(contact[2], pressure, 1e-7);
   EXPECT_NEAR(r.contact.resultants[0].area, width * width, 1e-9);
   EXPECT_LT(r.contact.penetration, 1e-9);
-  EXPECT_LT(r.balance.difference, 1e-9);
-  EXPECT_NEAR(r.balance.applied[2], -pressure, 1e-12);
-  EXPECT_NEAR(r.balance.largest, pressure, 1e-7);
+  EXPECT_LT(r.forces.balance.difference, 1e-9);
+  EXPECT_NEAR(r.forces.balance.applied[2], -pressure, 1e-12);
+  EXPECT_NEAR(r.forces.balance.largest, pressure, 1e-7);
 }
 
 // Coulomb 0.5 carries the push; with half the pressure it could not carry more. What a state was stays what it was.
@@ -128,18 +128,18 @@ TEST(LoadSteps, StatesAreValuesThatTheNextStartsFrom)
   for (std::size_t i = 0; i < 4; ++i) {
     const auto &once = run.results[i], &twice = run.again[i];  // neither evaluating it nor solving others changes a state
     EXPECT_EQ(once.verdict.status, ExitStatus::solved) << i << once.verdict.reason;
-    EXPECT_EQ(once.max_displacement, twice.max_displacement);
-    EXPECT_EQ(once.stress.strain_energy, twice.stress.strain_energy);
-    EXPECT_EQ(once.reactions, twice.reactions);
-    EXPECT_EQ(once.balance.applied, twice.balance.applied);
-    EXPECT_EQ(once.balance.difference, twice.balance.difference);
-    EXPECT_EQ(once.residuals.equilibrium, twice.residuals.equilibrium);
-    EXPECT_EQ(once.residuals.supports, twice.residuals.supports);
+    EXPECT_EQ(once.fields.max_displacement, twice.fields.max_displacement);
+    EXPECT_EQ(once.fields.stress.strain_energy, twice.fields.stress.strain_energy);
+    EXPECT_EQ(once.forces.reactions, twice.forces.reactions);
+    EXPECT_EQ(once.forces.balance.applied, twice.forces.balance.applied);
+    EXPECT_EQ(once.forces.balance.difference, twice.forces.balance.difference);
+    EXPECT_EQ(once.accuracy.residuals.equilibrium, twice.accuracy.residuals.equilibrium);
+    EXPECT_EQ(once.accuracy.residuals.supports, twice.accuracy.residuals.supports);
     EXPECT_EQ(once.contact.resultants[0].force, twice.contact.resultants[0].force);
-    EXPECT_LT(once.balance.difference, 1e-8) << i;
+    EXPECT_LT(once.forces.balance.difference, 1e-8) << i;
     EXPECT_NEAR(once.contact.resultants[0].force[2], pressure, 1e-6) << i;
   }
-  expect_near(run.results[1].reactions[0].force, {-0.5, 0, pressure});
+  expect_near(run.results[1].forces.reactions[0].force, {-0.5, 0, pressure});
   EXPECT_NEAR(run.results[2].contact.resultants[0].force[0], 0, 1e-6);
 
   const auto rows = [&](std::size_t i) {
@@ -184,7 +184,8 @@ TEST(LoadSteps, ErrorsOfSlipAddUp)
   for (std::size_t i = 0; i < run.states.size(); ++i) {
     EXPECT_EQ(run.states[i].before.slip_error, sum) << i;
     const auto& r = run.results[i];
-    EXPECT_GE(r.algebraic_error * std::sqrt(r.mesh_error.squared_norm), (sum + run.states[i].solved.solution.error) * (1 - 1e-9))
+    EXPECT_GE(r.accuracy.algebraic_error * std::sqrt(r.accuracy.mesh_error.squared_norm),
+              (sum + run.states[i].solved.solution.error) * (1 - 1e-9))
         << i;
     sum += run.states[i].solved.solution.error;
   }

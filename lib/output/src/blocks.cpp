@@ -31,7 +31,7 @@ std::vector<std::string> boundaries_in_use(const model::Deck& deck)
 }
 
 // The faces of a boundary, with the point fields of the volume.
-io::Piece boundary_piece(const std::string& name, const partition::Decomposition& decomposition, const post::Results& results,
+io::Piece boundary_piece(const std::string& name, const partition::Decomposition& decomposition, const post::StressField& stress,
                          const Volume& volume)
 {
   const auto [boundary, body] = model::parse_boundary(name);
@@ -47,7 +47,7 @@ io::Piece boundary_piece(const std::string& name, const partition::Decomposition
     const bool meant = body.empty() || model::matches_name(catalogue.bodies[static_cast<std::size_t>(subdomain.body)], body);
     for (std::size_t f = 0; meant && f < facets.cells.size(); ++f) {
       if (facets.boundary[f] != index) continue;
-      const auto material = material_of(subdomain, results, s, static_cast<std::size_t>(facets.parent[f]));
+      const auto material = material_of(subdomain, stress, s, static_cast<std::size_t>(facets.parent[f]));
       std::vector<Local> nodes;
       for (const Local n : facets.cells[f])
         nodes.push_back(volume.point(subdomain.mesh.node_id[static_cast<std::size_t>(n)], material));
@@ -68,8 +68,8 @@ bool wants_blocks(const model::Deck& deck, const mesh::Catalogue& catalogue, std
 }
 
 std::vector<io::Block> named_blocks(const model::Deck& deck, const partition::Decomposition& decomposition,
-                                    const std::vector<contact::Pair>& pairs, const post::Results& results, const Volume& volume,
-                                    const io::Piece& sides)
+                                    const std::vector<contact::Pair>& pairs, const post::StressField& stress,
+                                    const Volume& volume, const io::Piece& sides)
 {
   std::vector<io::Block> blocks;
   const auto& bodies = decomposition.catalogue.bodies;
@@ -80,7 +80,7 @@ std::vector<io::Block> named_blocks(const model::Deck& deck, const partition::De
   for (std::size_t c = 0; c < pairs.size(); ++c)
     blocks.push_back({"contacts", pairs[c].options.name, io::part_of(sides, of_contacts[c])});
   for (const auto& name : boundaries_in_use(deck))
-    blocks.push_back({"boundaries", name, boundary_piece(name, decomposition, results, volume)});
+    blocks.push_back({"boundaries", name, boundary_piece(name, decomposition, stress, volume)});
   return blocks;
 }
 

@@ -44,7 +44,7 @@ void FieldFiles::write(const EvaluatedState& found, bool due, bool last, const C
 {
   if (due) write_fields(found, last, comm);
   if (!deck_.output.interior.any_points()) return;
-  points_ += point_rows(found.decomposition.catalogue, found.acts(), found.probes, found.results.interior.points, comm);
+  points_ += point_rows(found.decomposition.catalogue, found.acts(), found.probes, found.results.fields.interior.points, comm);
   collectively(comm, [&] {
     if (comm.root()) io::write_text(deck_.output.directory + "/interior.csv", points_);
   });
@@ -65,25 +65,26 @@ void FieldFiles::write_fields(const EvaluatedState& found, bool last, const Comm
   write_tables(found, last, comm);
   const auto sides = contact_sides(pairs, results.contact.surfaces);
   if (!pairs.empty()) put(contact_, sides);
-  const auto volume = make_volume(deck_, decomposition, state.displacement, results, values_of_nodes(deck_, found, comm));
+  const auto volume = make_volume(deck_, decomposition, state.displacement, results.fields, values_of_nodes(deck_, found, comm));
   put(volume_, volume.piece);
   if (wants_blocks(deck_, decomposition.catalogue, pairs.size()))
-    io::write_blocks(directory, blocks_, time, named_blocks(deck_, decomposition, pairs, results, volume, sides), comm);
+    io::write_blocks(directory, blocks_, time, named_blocks(deck_, decomposition, pairs, results.fields.stress, volume, sides),
+                     comm);
   for (std::size_t k = 0; k < planes_.size(); ++k)
-    put(planes_[k], plane_piece(deck_, decomposition, probes.planes[k], results.interior.planes[k]));
+    put(planes_[k], plane_piece(deck_, decomposition, probes.planes[k], results.fields.interior.planes[k]));
 }
 
 // Before the fields of the same state.
 void FieldFiles::write_tables(const EvaluatedState& found, bool last, const Communicator& comm) const
 {
-  auto tables = node_tables(found.decomposition, found.interface, found.state.displacement, found.results);
+  auto tables = node_tables(found.decomposition, found.interface, found.state.displacement, found.results.fields.stress);
   const auto append = [&](std::vector<io::Table> more) {
     for (auto& table : more) tables.push_back(std::move(table));
   };
-  append(cell_tables(found.decomposition, found.results, comm));
+  append(cell_tables(found.decomposition, found.results.fields.stress, comm));
   tables.push_back(multiplier_table(found.state.problem, found.state.solved.solution.x));
   if (!found.state.rows->pairs.empty()) tables.push_back(contact_table(found.results.contact.shown, comm));
-  append(interior_tables(found.decomposition, found.probes, found.results.interior, comm));
+  append(interior_tables(found.decomposition, found.probes, found.results.fields.interior, comm));
   const auto name = last ? std::string("results.h5") : fmt::format("results.{}.h5", volume_.frames.size() + 1);
   io::write_results(deck_.output.directory + "/" + name, tables, comm);
 }

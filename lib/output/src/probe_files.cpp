@@ -40,14 +40,13 @@ std::vector<std::optional<deck::LocalAxes>> axes_of_points(const model::Deck& de
 }
 
 // Those of all ranks, by their rows. Collective.
-std::vector<Sample> gather_samples(const model::Deck& deck, const post::Probes& probes, const post::Results& results,
+std::vector<Sample> gather_samples(const model::Deck& deck, const post::Probes& probes, const post::Values& values,
                                    const Communicator& comm)
 {
   const auto axes = axes_of_points(deck);
   std::vector<Sample> mine;
   for (std::size_t i = 0; i < probes.sampled.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    const auto& values = results.interior.sampled;
     const fem::Stress stress = values.stress.row(row).transpose();
     auto& sample = mine.emplace_back(Sample{probes.sampled[i].row, probes.sampled[i].point, probes.sampled[i].body, {}});
     Eigen::Map<Eigen::Matrix<double, width, 1>> all(sample.values.data());
@@ -128,15 +127,15 @@ std::string path_rows(const io::ProbeOptions& path, const mesh::Catalogue& catal
 }  // namespace
 
 std::vector<Probe> probe_summaries(const model::Deck& deck, const mesh::Catalogue& catalogue, const post::Probes& probes,
-                                   const post::Results& results, const Communicator& comm)
+                                   const post::Fields& fields, const Communicator& comm)
 {
   std::vector<Probe> summaries;
   if (deck.output.probes.empty()) return summaries;
-  const auto samples = gather_samples(deck, probes, results, comm);
+  const auto samples = gather_samples(deck, probes, fields.interior.sampled, comm);
   const auto body_name = [&](int body) {
     return body < 0 ? std::string() : catalogue.bodies[static_cast<std::size_t>(body)].name;
   };
-  auto extreme = results.extremes.begin();
+  auto extreme = fields.extremes.begin();
   std::size_t first = 0;  // point of the probe
   for (const auto& [name, probe] : deck.output.probes) {
     Probe entry;
@@ -168,10 +167,10 @@ std::vector<Probe> probe_summaries(const model::Deck& deck, const mesh::Catalogu
 }
 
 void ProbeFiles::write(const mesh::Catalogue& catalogue, const model::LoadState& acts, const post::Probes& probes,
-                       const post::Results& results, const std::vector<Probe>& summaries, const Communicator& comm)
+                       const post::Values& sampled, const std::vector<Probe>& summaries, const Communicator& comm)
 {
   if (deck_.output.probes.empty()) return;
-  const auto samples = gather_samples(deck_, probes, results, comm);
+  const auto samples = gather_samples(deck_, probes, sampled, comm);
   add_row(acts, summaries);
   std::size_t first = 0;  // point of the probe
   for (const auto& [name, probe] : deck_.output.probes) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "base/traffic_counted.hpp"
 #include "output/probe_files.hpp"
@@ -33,16 +34,17 @@ void add_work(const feti::DualSolution& solved, io::StateSummary& summary)
 }
 
 // Residuals, errors, and the figures of the whole model.
-void add_figures(const post::Results& results, const mesh::Catalogue& catalogue, io::StateSummary& summary)
+void add_figures(const post::Fields& fields, const post::Accuracy& accuracy, const mesh::Catalogue& catalogue,
+                 io::StateSummary& summary)
 {
-  const auto& r = results.residuals;
+  const auto& r = accuracy.residuals;
   summary.residuals = {r.projected_gradient, r.equality, r.equilibrium, r.penetration,
                        r.complementarity,    r.supports, r.interfaces};
-  summary.error_estimate.discretization = results.mesh_error.relative;
-  summary.error_estimate.algebraic = results.algebraic_error;
-  summary.strain_energy = results.stress.strain_energy;
-  summary.max_displacement = results.max_displacement;
-  const auto& largest = results.stress.largest_von_mises;
+  summary.error_estimate.discretization = accuracy.mesh_error.relative;
+  summary.error_estimate.algebraic = accuracy.algebraic_error;
+  summary.strain_energy = fields.stress.strain_energy;
+  summary.max_displacement = fields.max_displacement;
+  const auto& largest = fields.stress.largest_von_mises;
   summary.max_von_mises = largest.value;
   summary.max_von_mises_place.coordinates = {largest.at[0], largest.at[1], largest.at[2]};
   if (largest.body >= 0) summary.max_von_mises_place.body = catalogue.bodies[static_cast<std::size_t>(largest.body)].name;
@@ -56,25 +58,25 @@ std::array<double, 3> moment_of(const model::Deck& deck, const post::Reaction& r
   return {m[0] - p[1] * f[2] + p[2] * f[1], m[1] - p[2] * f[0] + p[0] * f[2], m[2] - p[0] * f[1] + p[1] * f[0]};
 }
 
-void add_reactions(const model::Deck& deck, const post::Results& results, io::StateSummary& summary)
+void add_reactions(const model::Deck& deck, std::span<const post::Reaction> reactions, io::StateSummary& summary)
 {
   summary.moments_about = deck.output.moments_about;
-  for (std::size_t s = 0; s < results.reactions.size(); ++s) {
+  for (std::size_t s = 0; s < reactions.size(); ++s) {
     const auto& support = deck.supports[s];
     if (!support.coupling.empty()) continue;
-    summary.reactions.push_back({support.boundary, results.reactions[s].force, {}, support.name});
+    summary.reactions.push_back({support.boundary, reactions[s].force, {}, support.name});
     if (deck.axisymmetric())
       summary.reactions.back().force[0] = 0;  // all round it cancels
     else
-      summary.reactions.back().moment = moment_of(deck, results.reactions[s]);
+      summary.reactions.back().moment = moment_of(deck, reactions[s]);
   }
 }
 
-void add_couplings(const model::Deck& deck, const post::Results& results, io::StateSummary& summary)
+void add_couplings(const model::Deck& deck, std::span<const post::CouplingState> states, io::StateSummary& summary)
 {
   const auto head = [](const std::array<double, 6>& x) { return std::array{x[0], x[1], x[2]}; };
   const auto tail = [](const std::array<double, 6>& x) { return std::array{x[3], x[4], x[5]}; };
-  auto state = results.couplings.begin();
+  auto state = states.begin();
   for (const auto& [name, options] : deck.couplings) {
     const auto& [motion, action, reaction] = *state++;
     const bool prescribed =
@@ -84,24 +86,24 @@ void add_couplings(const model::Deck& deck, const post::Results& results, io::St
   }
 }
 
-void add_springs(const model::Deck& deck, const post::Results& results, io::StateSummary& summary)
+void add_springs(const model::Deck& deck, std::span<const post::SpringState> states, io::StateSummary& summary)
 {
-  auto state = results.springs.begin();
+  auto state = states.begin();
   for (const auto& [name, options] : deck.springs) {
     summary.springs.push_back({name, state->force, state->elongation});
     ++state;
   }
 }
 
-void add_contacts(const model::Contacts& contacts, const analysis::StepState& state, const post::Results& results,
-                  const Communicator& comm, io::StateSummary& summary)
+void add_contacts(const model::Contacts& contacts, const analysis::StepState& state, const post::ContactResults& found,
+                  std::span<const double> shortenings, const Communicator& comm, io::StateSummary& summary)
 {
   const auto largest = [&](const std::vector<double>& pressure) {
     return comm.max(pressure.empty() ? 0.0 : *std::max_element(pressure.begin(), pressure.end()));
   };
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const auto& r = results.contact.resultants[c];
-    const auto& surface = results.contact.surfaces[c];
+    const auto& r = found.resultants[c];
+    const auto& surface = found.surfaces[c];
     // On the side that the deck calls secondary.
     const Point force = contacts[c].exchanged ? Point(Point::Zero() - r.force) : r.force;
     summary.contacts.push_back({contacts[c].name,
@@ -112,7 +114,7 @@ void add_contacts(const model::Contacts& contacts, const analysis::StepState& st
                                 r.stick,
                                 r.slip,
                                 largest(surface.recovered_pressure),
-                                results.contact.tensions[c]});
+                                found.tensions[c]});
     const auto& gap = state.rows->initial_gaps[c];
     summary.contacts.back().exchanged = contacts[c].exchanged;
     summary.contacts.back().initial_gap = {gap.smallest, gap.largest_overlap(), gap.touching_area};
@@ -120,8 +122,7 @@ void add_contacts(const model::Contacts& contacts, const analysis::StepState& st
   const auto& pretension_sections = state.rows->constraints.pretension_sections;
   for (std::size_t i = 0; i < pretension_sections.size(); ++i) {
     const auto contact = static_cast<std::size_t>(pretension_sections[i].preload.contact);
-    summary.contacts[contact].preload = {pretension_sections[i].normal.dot(results.contact.resultants[contact].force),
-                                         results.shortenings[i]};
+    summary.contacts[contact].preload = {pretension_sections[i].normal.dot(found.resultants[contact].force), shortenings[i]};
   }
 }
 
@@ -196,12 +197,12 @@ io::Summary summarise(const model::Model& model, const EvaluatedState& found, co
   summary.converged = results.verdict.status == ExitStatus::solved;
   summary.exit_status = static_cast<int>(results.verdict.status);
   add_work(found.state.solved, summary);
-  add_figures(results, catalogue, summary);
-  add_reactions(model.deck(), results, summary);
-  summary.probes = probe_summaries(model.deck(), catalogue, found.probes, results, comm);
-  add_couplings(model.deck(), results, summary);
-  add_springs(model.deck(), results, summary);
-  add_contacts(model.contacts(), found.state, results, comm, summary);
+  add_figures(results.fields, results.accuracy, catalogue, summary);
+  add_reactions(model.deck(), results.forces.reactions, summary);
+  summary.probes = probe_summaries(model.deck(), catalogue, found.probes, results.fields, comm);
+  add_couplings(model.deck(), results.forces.couplings, summary);
+  add_springs(model.deck(), results.forces.springs, summary);
+  add_contacts(model.contacts(), found.state, results.contact, results.forces.shortenings, comm, summary);
   add_unresolved_contact(found.state.solved, model.contacts(), summary);
   return summary;
 }

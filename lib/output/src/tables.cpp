@@ -74,7 +74,7 @@ Tables point_tables(const post::Probes& probes, const post::Values& values)
 }  // namespace
 
 std::vector<io::Table> node_tables(const partition::Decomposition& decomposition, const partition::Interface& interface,
-                                   const std::vector<Eigen::VectorXd>& displacement, const post::Results& results)
+                                   const std::vector<Eigen::VectorXd>& displacement, const post::StressField& stress)
 {
   const Global total = decomposition.catalogue.node_count;
   const int dimension = decomposition.catalogue.dimension;
@@ -91,14 +91,14 @@ std::vector<io::Table> node_tables(const partition::Decomposition& decomposition
       Point u = Point::Zero();
       u.head(dimension) = displacement[s].segment(static_cast<Eigen::Index>(n) * dimension, dimension);
       append(u, tables[1]);
-      tables[2].values.push_back(results.stress.nodal_von_mises[s][static_cast<Eigen::Index>(n)]);
-      append(results.stress.nodal[s].row(static_cast<Eigen::Index>(n)), tables[3]);
+      tables[2].values.push_back(stress.nodal_von_mises[s][static_cast<Eigen::Index>(n)]);
+      append(stress.nodal[s].row(static_cast<Eigen::Index>(n)), tables[3]);
     }
   }
   return tables;
 }
 
-std::vector<io::Table> cell_tables(const partition::Decomposition& decomposition, const post::Results& results,
+std::vector<io::Table> cell_tables(const partition::Decomposition& decomposition, const post::StressField& stress,
                                    const Communicator& comm)
 {
   std::vector<const mesh::Mesh*> meshes;
@@ -108,10 +108,10 @@ std::vector<io::Table> cell_tables(const partition::Decomposition& decomposition
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
     const auto& mesh = subdomain.mesh;
-    const auto& stress = results.stress.cell_von_mises[s];
+    const auto& of_cells = stress.cell_von_mises[s];
     meshes.push_back(&mesh);
     body.values.insert(body.values.end(), mesh.cells.size(), static_cast<double>(subdomain.body));
-    von_mises.values.insert(von_mises.values.end(), stress.begin(), stress.end());
+    von_mises.values.insert(von_mises.values.end(), of_cells.begin(), of_cells.end());
     for (auto* table : {&body, &von_mises}) table->row.insert(table->row.end(), mesh.cell_id.begin(), mesh.cell_id.end());
   }
   auto tables = io::cell_tables(meshes, total, comm);

@@ -12,12 +12,12 @@ namespace {
 // A subdomain as it is shown. Node n in material k is its point n * materials + k.
 class Part {
  public:
-  Part(const partition::Decomposition& decomposition, std::size_t s, const post::Results& results, std::size_t materials)
+  Part(const partition::Decomposition& decomposition, std::size_t s, const post::Fields& fields, std::size_t materials)
       : subdomain_(decomposition.subdomains[s]),
-        results_(results),
+        fields_(fields),
         s_(s),
         materials_(materials),
-        mesh_(results.interior.nodes.empty() ? subdomain_.mesh : post::solid(subdomain_))
+        mesh_(fields.interior.nodes.empty() ? subdomain_.mesh : post::solid(subdomain_))
   {
   }
 
@@ -40,7 +40,7 @@ class Part {
   }
   std::vector<std::size_t> points_of_cell(std::size_t cell) const
   {
-    const auto material = material_of(subdomain_, results_, s_, cell);
+    const auto material = material_of(subdomain_, fields_.stress, s_, cell);
     std::vector<std::size_t> result;
     for (const Local n : mesh_.cells[cell]) result.push_back(static_cast<std::size_t>(n) * materials_ + material);
     return result;
@@ -50,7 +50,7 @@ class Part {
   bool is_inside(std::size_t point) const { return node(point) >= subdomain_.mesh.node_count(); }
   Point displacement(std::size_t point, const Eigen::VectorXd& nodal) const
   {
-    if (is_inside(point)) return results_.interior.nodes[s_].displacement.row(row(point)).transpose();
+    if (is_inside(point)) return fields_.interior.nodes[s_].displacement.row(row(point)).transpose();
     const auto dimension = nodal.size() / static_cast<Eigen::Index>(subdomain_.mesh.node_count());
     Point result = Point::Zero();
     result.head(dimension) = nodal.segment(dimension * row(point), dimension);
@@ -58,13 +58,13 @@ class Part {
   }
   fem::Stress stress(std::size_t point) const
   {
-    if (is_inside(point)) return results_.interior.nodes[s_].stress.row(row(point)).transpose();
-    const auto& nodal = materials_ == 1 ? results_.stress.nodal[s_] : results_.stress.by_material[s_];
+    if (is_inside(point)) return fields_.interior.nodes[s_].stress.row(row(point)).transpose();
+    const auto& nodal = materials_ == 1 ? fields_.stress.nodal[s_] : fields_.stress.by_material[s_];
     return nodal.row(row(point)).segment(6 * static_cast<Eigen::Index>(point % materials_), 6).transpose();
   }
   const Eigen::VectorXd& von_mises_of_cells() const
   {
-    return &mesh_ == &subdomain_.mesh ? results_.stress.cell_von_mises[s_] : results_.interior.cell_von_mises[s_];
+    return &mesh_ == &subdomain_.mesh ? fields_.stress.cell_von_mises[s_] : fields_.interior.cell_von_mises[s_];
   }
 
  private:
@@ -74,7 +74,7 @@ class Part {
   }
 
   const partition::Subdomain& subdomain_;
-  const post::Results& results_;
+  const post::Fields& fields_;
   std::size_t s_, materials_;
   const mesh::Mesh& mesh_;
 };
@@ -156,31 +156,31 @@ Local Volume::point(Global node, std::size_t material) const
   return static_cast<Local>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
 }
 
-std::size_t material_of(const partition::Subdomain& subdomain, const post::Results& results, std::size_t s, std::size_t cell)
+std::size_t material_of(const partition::Subdomain& subdomain, const post::StressField& stress, std::size_t s, std::size_t cell)
 {
-  return subdomain.skin || results.stress.cell_block.empty() ? 0 : static_cast<std::size_t>(results.stress.cell_block[s][cell]);
+  return subdomain.skin || stress.cell_block.empty() ? 0 : static_cast<std::size_t>(stress.cell_block[s][cell]);
 }
 
 Volume make_volume(const model::Deck& deck, const partition::Decomposition& decomposition,
-                   const std::vector<Eigen::VectorXd>& displacement, const post::Results& results,
+                   const std::vector<Eigen::VectorXd>& displacement, const post::Fields& fields,
                    const std::vector<NodeValues>& more)
 {
   Volume volume;
-  const auto& by_material = results.stress.by_material;
+  const auto& by_material = fields.stress.by_material;
   if (!by_material.empty()) volume.materials = static_cast<std::size_t>(by_material.front().cols()) / 6;
   std::vector<Part> parts;
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s)
-    parts.emplace_back(decomposition, s, results, volume.materials);
+    parts.emplace_back(decomposition, s, fields, volume.materials);
   volume.ids = ids_of_points(parts);
   const auto places = places_of_points(parts, volume.ids);
   auto& piece = volume.piece;
   piece.points.resize(volume.ids.size());
-  PointFields fields(deck, volume.ids.size());
+  PointFields shown(deck, volume.ids.size());
   for_each_point(parts, places, [&](const Part& part, std::size_t s, std::size_t p, std::size_t at) {
     piece.points[at] = part.mesh().points[part.node(p)];
-    fields.set(at, piece.points[at], part.displacement(p, displacement[s]), part.stress(p));
+    shown.set(at, piece.points[at], part.displacement(p, displacement[s]), part.stress(p));
   });
-  fields.move_to(piece);
+  shown.move_to(piece);
   for (const auto& values : more) piece.point_fields.push_back(at_points(values, parts, places, volume.ids.size()));
   add_cells(parts, places, deck.output.has_field("von_mises"), piece);
   return volume;

@@ -29,7 +29,7 @@ struct DeckOfBlocks {
   std::optional<partition::NodeDirectory> directory;
   partition::Interface interface;
   std::vector<Eigen::VectorXd> displacement;
-  post::Results results;
+  post::Fields fields;
 
   // With these further sections.
   explicit DeckOfBlocks(const std::string& sections)
@@ -73,15 +73,15 @@ struct DeckOfBlocks {
   {
     const auto n = static_cast<Eigen::Index>(mesh.node_count());
     auto& u = displacement.emplace_back(3 * n);
-    auto& nodal = results.stress.nodal.emplace_back(n, 6);
-    auto& von_mises = results.stress.nodal_von_mises.emplace_back(n);
+    auto& nodal = fields.stress.nodal.emplace_back(n, 6);
+    auto& von_mises = fields.stress.nodal_von_mises.emplace_back(n);
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto& x = mesh.points[static_cast<std::size_t>(i)];
       u.segment(3 * i, 3) = moved(x);
       nodal.row(i) = stress(x).transpose();
       von_mises[i] = fem::von_mises(stress(x));
     }
-    auto& of_cells = results.stress.cell_von_mises.emplace_back(static_cast<Eigen::Index>(mesh.cells.size()));
+    auto& of_cells = fields.stress.cell_von_mises.emplace_back(static_cast<Eigen::Index>(mesh.cells.size()));
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       of_cells[static_cast<Eigen::Index>(c)] = static_cast<double>(mesh.cell_id[c]);
   }

@@ -30,7 +30,7 @@ std::vector<Eigen::VectorXd> whole(const io::Table& table, const Communicator& c
 TEST(Tables, HaveEachNodeAndCellOnce)
 {
   const DeckOfBlocks blocks("");
-  const auto nodes = node_tables(blocks.decomposition, blocks.interface, blocks.displacement, blocks.results);
+  const auto nodes = node_tables(blocks.decomposition, blocks.interface, blocks.displacement, blocks.fields.stress);
   ASSERT_EQ(nodes.size(), 4U);
   const auto points = whole(nodes[0], blocks.comm), moved = whole(nodes[1], blocks.comm),
              von_mises = whole(nodes[2], blocks.comm), stress = whole(nodes[3], blocks.comm);
@@ -41,7 +41,7 @@ TEST(Tables, HaveEachNodeAndCellOnce)
     EXPECT_EQ(stress[n], Eigen::VectorXd(DeckOfBlocks::stress(x)));
     EXPECT_EQ(von_mises[n][0], fem::von_mises(DeckOfBlocks::stress(x)));
   }
-  for (const auto& table : cell_tables(blocks.decomposition, blocks.results, blocks.comm)) {
+  for (const auto& table : cell_tables(blocks.decomposition, blocks.fields.stress, blocks.comm)) {
     const auto rows = whole(table, blocks.comm);
     ASSERT_EQ(rows.size(), 28U) << table.name;
     for (std::size_t c = 0; c < rows.size(); ++c) {
@@ -154,10 +154,10 @@ TEST(ProbeFiles, TellExtremesPointsAndPaths)
   post::Probes probes;
   probes.sampled = share_of_rank(all, comm);
   probes.samples = 7;
-  post::Results results;
-  results.interior.sampled = values_at(probes.sampled);
-  results.extremes.push_back({12.5, {2, 0, 1}, 1});
-  const auto summaries = probe_summaries(deck, catalogue, probes, results, comm);
+  post::Fields fields;
+  fields.interior.sampled = values_at(probes.sampled);
+  fields.extremes.push_back({12.5, {2, 0, 1}, 1});
+  const auto summaries = probe_summaries(deck, catalogue, probes, fields, comm);
   ASSERT_EQ(summaries.size(), 4U);
   EXPECT_EQ(summaries[0].path->points, 5);
   EXPECT_EQ(summaries[0].path->length, 4);
@@ -167,7 +167,7 @@ TEST(ProbeFiles, TellExtremesPointsAndPaths)
   EXPECT_EQ(summaries[3].value, 12.5);
   EXPECT_EQ(summaries[3].place.body, "upper");
   ProbeFiles files(deck);
-  files.write(catalogue, {}, probes, results, summaries, comm);
+  files.write(catalogue, {}, probes, fields.interior.sampled, summaries, comm);
   EXPECT_EQ(folder.files(), (std::set<std::string>{"probe.down.csv", "probes.csv"}));
   std::istringstream path(io::test::content(folder / "probe.down.csv"));
   std::vector<std::string> lines;

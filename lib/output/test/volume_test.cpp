@@ -42,7 +42,7 @@ TEST(Volume, HasEachNodeOnceWithTheFieldsThatAreAskedFor)
       values(static_cast<Eigen::Index>(n), 0) = subdomain.mesh.points[n][2];
     nodes.insert(subdomain.mesh.node_id.begin(), subdomain.mesh.node_id.end());
   }
-  const auto volume = make_volume(blocks.deck, blocks.decomposition, blocks.displacement, blocks.results, {heights});
+  const auto volume = make_volume(blocks.deck, blocks.decomposition, blocks.displacement, blocks.fields, {heights});
   const auto& piece = volume.piece;
   EXPECT_EQ(volume.ids, std::vector<Global>(nodes.begin(), nodes.end()));
   EXPECT_EQ(names_of(piece.point_fields), (Names{"displacement", "principal_stress", "displacement_local", "height"}));
@@ -69,7 +69,7 @@ TEST(Volume, HasAPointForEachMaterialThatMeetsAtANode)
 {
   DeckOfBlocks blocks("output: {fields: [stress]}\n");
   constexpr double jump = 100;
-  auto& stress = blocks.results.stress;
+  auto& stress = blocks.fields.stress;
   const auto material = [](const Point& x) { return x[2] < 1 && x[0] > 1 ? 1 : 0; };
   for (std::size_t s = 0; s < blocks.decomposition.subdomains.size(); ++s) {
     const auto& mesh = blocks.decomposition.subdomains[s].mesh;
@@ -82,7 +82,7 @@ TEST(Volume, HasAPointForEachMaterialThatMeetsAtANode)
       of_cells.push_back(material(middle));
     }
   }
-  const auto volume = make_volume(blocks.deck, blocks.decomposition, blocks.displacement, blocks.results, {});
+  const auto volume = make_volume(blocks.deck, blocks.decomposition, blocks.displacement, blocks.fields, {});
   const auto& piece = volume.piece;
   for (std::size_t c = 0; c < piece.cells.size(); ++c) {
     const double raised = jump * material(mean_of_cell(piece, c));
@@ -117,10 +117,11 @@ TEST(Blocks, AreBodiesContactsAndBoundaries)
       "output: {fields: [displacement]}\n"
       "supports: [{boundary: lower.zmin, displacement: {z: 0}}, {boundary: lower.zmin, displacement: {x: 0, y: 0}}]\n"
       "loads: [{boundary: upper.zmax, pressure: 1}]\n");
-  const auto volume = make_volume(blocks.deck, blocks.decomposition, blocks.displacement, blocks.results, {});
+  const auto volume = make_volume(blocks.deck, blocks.decomposition, blocks.displacement, blocks.fields, {});
   const std::vector pairs{blocks.joint()};
   const std::vector states{DeckOfBlocks::no_state(pairs[0].secondary)};
-  const auto found = named_blocks(blocks.deck, blocks.decomposition, pairs, blocks.results, volume, contact_sides(pairs, states));
+  const auto found =
+      named_blocks(blocks.deck, blocks.decomposition, pairs, blocks.fields.stress, volume, contact_sides(pairs, states));
   Names names;
   for (const auto& block : found) names.push_back(block.group + "/" + block.name);
   EXPECT_EQ(names, (Names{"bodies/lower", "bodies/upper", "contacts/joint", "boundaries/lower.zmin", "boundaries/upper.zmax"}));

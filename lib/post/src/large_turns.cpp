@@ -15,16 +15,16 @@ namespace mortise::post {
 
 namespace {
 
-using Fields = std::vector<Eigen::VectorXd>;  // of each subdomain of this rank
+using NodalVectors = std::vector<Eigen::VectorXd>;  // of each subdomain of this rank
 
 constexpr double much = 0.02;  // of forces
 
 // field(b, x) at each node of body b.
 template <class Field>
-Fields fields(const partition::Decomposition& decomposition, const Field& field)
+NodalVectors fields(const partition::Decomposition& decomposition, const Field& field)
 {
   const int dimension = decomposition.catalogue.dimension;
-  Fields result;
+  NodalVectors result;
   for (const auto& subdomain : decomposition.subdomains) {
     auto& u = result.emplace_back(static_cast<Eigen::Index>(subdomain.mesh.node_count()) * dimension);
     for (std::size_t n = 0; n < subdomain.mesh.node_count(); ++n)
@@ -35,7 +35,8 @@ Fields fields(const partition::Decomposition& decomposition, const Field& field)
 }
 
 // Of each body the sum of the lengths of nodal forces. Collective.
-std::vector<double> sizes_on_bodies(const partition::Decomposition& decomposition, const Fields& force, const Communicator& comm)
+std::vector<double> sizes_on_bodies(const partition::Decomposition& decomposition, const NodalVectors& force,
+                                    const Communicator& comm)
 {
   const int dimension = decomposition.catalogue.dimension;
   std::vector<double> result(decomposition.catalogue.bodies.size(), 0.0);
@@ -155,11 +156,11 @@ Eigen::VectorXd second_order_felt(const feti::DualProblem& problem, const partit
                                   const std::vector<BodyMotion>& turns, std::span<const contact::Pair> pairs,
                                   const Eigen::VectorXd& pressing, double length)
 {
-  const Fields second_order = fields(decomposition, [&](std::size_t b, const Point& x) {
+  const NodalVectors second_order = fields(decomposition, [&](std::size_t b, const Point& x) {
     const Point& omega = turns[b].rigid.rotation;
     return Point(0.5 * omega.cross(omega.cross(x - turns[b].rigid.centre)));
   });
-  const Fields first_order = fields(decomposition, [&](std::size_t b, const Point& x) { return turns[b].rigid.at(x); });
+  const NodalVectors first_order = fields(decomposition, [&](std::size_t b, const Point& x) { return turns[b].rigid.at(x); });
   std::vector<Point> turn;  // of each contact
   for (const auto& bodies : bodies_of_contacts(pairs, problem.communicator())) {
     const auto fastest =
@@ -204,7 +205,7 @@ Eigen::VectorXd least_felt(const SparseMatrix& rows, const Eigen::VectorXd& weig
 }  // namespace
 
 LargeTurn large_turn(const feti::DualProblem& problem, const Vector& lambda, const partition::Decomposition& decomposition,
-                     fem::Kinematics kinematics, const Fields& displacement, std::span<const contact::Pair> pairs,
+                     fem::Kinematics kinematics, const NodalVectors& displacement, std::span<const contact::Pair> pairs,
                      std::span<const contact::ContactNodeState> states, std::span<const double> strain_energy)
 {
   // Of all energy, at least, where it is looked at; a point of a body from its centre, over the radius, at most; of the body

@@ -65,89 +65,116 @@ double nothing_of_errors(const Rounding& rounding, double error)
 }
 
 // Relative errors of the mesh and of the solver; `stored`: twice what springs store. Returns what the solver's are relative to.
-double estimate_errors(const feti::DualSolution& solved, const Rounding& rounding, double stored, const Communicator& comm,
-                       Results& results)
+double estimate_errors(const feti::DualSolution& solved, const StressField& stress, const Rounding& rounding, double stored,
+                       const Communicator& comm, Accuracy& accuracy)
 {
-  const auto& stress = results.stress;
-  results.algebraic_error = solved.solution.error;
+  accuracy.algebraic_error = solved.solution.error;
   double squared_error = stress.squared_error;
-  for (const auto& contact : results.contact_errors) squared_error += contact.squared;
+  for (const auto& contact : accuracy.contact_errors) squared_error += contact.squared;
   const double squared_norm =
       std::max(2 * stress.strain_energy + squared_error, nothing_of_errors(rounding, solved.solution.error));
   if (!(squared_norm > 0)) return 0;  // a state at rest is exact
   const double norm = std::sqrt(std::max(squared_norm, strained * stored));
-  results.algebraic_error /= norm;
-  results.mesh_error = {std::sqrt(squared_error / squared_norm), largest_of_ranks(stress.worst_cell, comm), stress.body_error,
-                        squared_norm};
-  comm.sum_in_place(results.mesh_error.part);
-  for (auto& part : results.mesh_error.part) part /= std::max(squared_error, 1e-300);
+  accuracy.algebraic_error /= norm;
+  accuracy.mesh_error = {std::sqrt(squared_error / squared_norm), largest_of_ranks(stress.worst_cell, comm), stress.body_error,
+                         squared_norm};
+  comm.sum_in_place(accuracy.mesh_error.part);
+  for (auto& part : accuracy.mesh_error.part) part /= std::max(squared_error, 1e-300);
   return norm;
+}
+
+// What rounding leaves in this state and those before.
+Rounding rounding_of(const Equilibrium& e, double largest_body, double stored, const Communicator& comm)
+{
+  auto result = rounding(e.displacement, e.problem.load(), e.system.nodal_stiffness, e.problem.dimension(), largest_body, comm);
+  result.take(e.before);
+  // An error of this size is a hundredth: it excuses residuals that are measured by what is nothing itself.
+  result.energy = std::max(result.energy, std::pow(100 * e.negligible, 2));
+  // Bodies that hang on springs move more exactly than they are strained.
+  result.energy = std::max(result.energy, part_of_springs * stored);
+  return result;
+}
+
+Forces forces_of(const Equilibrium& e, const ElasticBodies& bodies, const ContactResults& contact, const Rounding& rounding)
+{
+  const auto& lambda = e.solved.solution.x;
+  Forces result;
+  result.reactions = reactions(e.problem, lambda, e.supports);
+  result.couplings = coupling_states(e.problem, lambda);
+  result.springs = spring_states(e.problem, lambda);
+  result.balance = balance(e.problem, lambda, result.reactions, contact.resultants, e.pairs,
+                           bodies.kinematics == fem::Kinematics::axisymmetric, result.couplings, rounding);
+  result.unresisted = e.problem.unresisted_loads();
+  result.shortenings = e.problem.shortenings(e.solved.solution.nu);
+  return result;
+}
+
+Residuals residuals_of(const Equilibrium& e, const ElasticBodies& bodies, std::span<const double> sizes, const Fields& fields,
+                       const ContactResults& contact, const Rounding& rounding, const Communicator& comm)
+{
+  const auto& solution = e.solved.solution;
+  Residuals result;
+  result.projected_gradient = solution.projected_gradient;
+  result.equality = solution.equality;
+  result.equilibrium = e.problem.imbalance(e.displacement, solution.x, rounding.force);
+  // Of heated bodies that are held all round, displacements say nothing.
+  const double length = std::max({fields.max_displacement, rounding.length, free_expansion(bodies, sizes, comm)});
+  const auto over = [](double value, double scale) { return scale > 0 ? value / scale : value; };
+  result.penetration = over(contact.penetration, length);
+  result.supports = over(distance_from_supports(e.problem, e.displacement, solution.nu), length);
+  result.interfaces =
+      over(distance_between_parts(e.problem, bodies.decomposition, bodies.interface, e.displacement, solution.nu), length);
+  const double energy = std::max({fields.stress.strain_energy, rounding.energy, rounding.moved, rounding.work});
+  result.complementarity = over(contact.work_of_gaps, 2 * energy);
+  return result;
+}
+
+Neglected neglected(const Equilibrium& e, const ElasticBodies& bodies, const Fields& fields, const ContactResults& contact,
+                    const Communicator& comm)
+{
+  const auto& lambda = e.solved.solution.x;
+  Neglected result;
+  if (bodies.kinematics != fem::Kinematics::axisymmetric)
+    result.moments = contact_moments(e.problem, lambda, bodies.decomposition, bodies.kinematics, e.pairs, contact.states);
+  auto energies = fields.stress.body_energy;
+  comm.sum_in_place(energies);
+  result.turn =
+      large_turn(e.problem, lambda, bodies.decomposition, bodies.kinematics, e.displacement, e.pairs, contact.states, energies);
+  return result;
 }
 
 }  // namespace
 
-Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, const Communicator& comm)
+Results evaluate(const Equilibrium& e, const ElasticBodies& bodies, const Communicator& comm)
 {
-  const auto& [problem, system, pairs, solved, displacement, supports, tolerance, negligible, before, largest_force, slip_error] =
-      equilibrium;
-  const auto& lambda = solved.solution.x;
-  const auto& nu = solved.solution.nu;
-  const int dimension = problem.dimension();
+  const auto& solution = e.solved.solution;
   const auto sizes = body_sizes(bodies.decomposition, bodies.kinematics, comm);
-  auto rounding = post::rounding(displacement, problem.load(), system.nodal_stiffness, dimension,
-                                 *std::max_element(sizes.begin(), sizes.end()), comm);
-  rounding.take(before);
-  // An error of this size is a hundredth: it excuses residuals that are measured by what is nothing itself.
-  rounding.energy = std::max(rounding.energy, std::pow(100 * negligible, 2));
-  // Bodies that hang on springs move more exactly than they are strained.
-  const double stored = problem.system().springs() ? problem.system().springs()->stored(lambda) : 0;
-  rounding.energy = std::max(rounding.energy, part_of_springs * stored);
+  const auto* springs = e.problem.system().springs();
+  const double stored = springs ? springs->stored(solution.x) : 0;
+  const auto rounding = rounding_of(e, *std::max_element(sizes.begin(), sizes.end()), stored, comm);
   Results results;
-  results.max_displacement = largest_displacement(displacement, dimension, comm);
-  results.stress = recover_stress(bodies, displacement, comm);
-  results.contact = contact_results(problem, lambda, nu, solved.slip_bounds, displacement, pairs, largest_force);
-  results.contact_errors = contact_errors(bodies, displacement, results.stress, pairs, results.contact.surfaces, comm);
-  const double norm = estimate_errors(solved, rounding, stored, comm, results);
-  if (bodies.kinematics != fem::Kinematics::axisymmetric)
-    results.moments = contact_moments(problem, lambda, bodies.decomposition, bodies.kinematics, pairs, results.contact.states);
-  auto energies = results.stress.body_energy;
-  comm.sum_in_place(energies);
-  results.turn =
-      large_turn(problem, lambda, bodies.decomposition, bodies.kinematics, displacement, pairs, results.contact.states, energies);
-  results.reactions = reactions(problem, lambda, supports);
-  results.couplings = coupling_states(problem, lambda);
-  results.springs = spring_states(problem, lambda);
-  results.balance = balance(problem, lambda, results.reactions, results.contact.resultants, pairs,
-                            bodies.kinematics == fem::Kinematics::axisymmetric, results.couplings, rounding);
-  results.unresisted = problem.unresisted_loads();
-  results.shortenings = problem.shortenings(nu);
-
-  auto& residuals = results.residuals;
-  residuals.projected_gradient = solved.solution.projected_gradient;
-  residuals.equality = solved.solution.equality;
-  residuals.equilibrium = problem.imbalance(displacement, lambda, rounding.force);
-  // Of heated bodies that are held all round, displacements say nothing.
-  const double length = std::max({results.max_displacement, rounding.length, free_expansion(bodies, sizes, comm)});
-  residuals.penetration = length > 0 ? results.contact.penetration / length : results.contact.penetration;
-  const double off = distance_from_supports(problem, displacement, nu);
-  residuals.supports = length > 0 ? off / length : off;
-  const double apart = distance_between_parts(problem, bodies.decomposition, bodies.interface, displacement, nu);
-  residuals.interfaces = length > 0 ? apart / length : apart;
-  const double energy = std::max({results.stress.strain_energy, rounding.energy, rounding.moved, rounding.work});
-  residuals.complementarity = energy > 0 ? results.contact.work_of_gaps / (2 * energy) : results.contact.work_of_gaps;
+  auto& [fields, contact, forces, accuracy, left_out, verdict] = results;
+  fields.max_displacement = largest_displacement(e.displacement, e.problem.dimension(), comm);
+  fields.stress = recover_stress(bodies, e.displacement, comm);
+  contact = contact_results(e.problem, solution.x, solution.nu, e.solved.slip_bounds, e.displacement, e.pairs, e.largest_force);
+  accuracy.contact_errors = contact_errors(bodies, e.displacement, fields.stress, e.pairs, contact.surfaces, comm);
+  const double norm = estimate_errors(e.solved, fields.stress, rounding, stored, comm, accuracy);
+  left_out = neglected(e, bodies, fields, contact, comm);
+  forces = forces_of(e, bodies, contact, rounding);
+  accuracy.residuals = residuals_of(e, bodies, sizes, fields, contact, rounding, comm);
 
   Evidence evidence;
-  evidence.converged = solved.converged;
-  evidence.limit = solved.limit;
-  evidence.tolerance = tolerance;
-  static_cast<Residuals&>(evidence) = residuals;
-  evidence.imbalance = results.balance.difference;
-  evidence.algebraic_error = results.algebraic_error;
+  evidence.converged = e.solved.converged;
+  evidence.limit = e.solved.limit;
+  evidence.tolerance = e.tolerance;
+  static_cast<Residuals&>(evidence) = accuracy.residuals;
+  evidence.imbalance = forces.balance.difference;
+  evidence.algebraic_error = accuracy.algebraic_error;
   evidence.drift =
-      drift(bodies.decomposition, bodies.kinematics, sizes, displacement, prescribed(problem.constraints(), comm), comm);
-  results.verdict = verdict(evidence);
-  results.algebraic_error += problem.system().rounding();  // what the solver does not know
-  if (norm > 0) results.algebraic_error += slip_error / norm;
+      drift(bodies.decomposition, bodies.kinematics, sizes, e.displacement, prescribed(e.problem.constraints(), comm), comm);
+  verdict = post::verdict(evidence);
+  accuracy.algebraic_error += e.problem.system().rounding();  // what the solver does not know
+  if (norm > 0) accuracy.algebraic_error += e.slip_error / norm;
   return results;
 }
 

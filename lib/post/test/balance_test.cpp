@@ -258,7 +258,7 @@ TEST(Springs, PullWithWhatHangsOnThem)
 }
 
 // A load of -6 along z beside forces that are made up.
-struct Forces {
+struct MadeUpForces {
   Pieces block{false};
   std::vector<Reaction> reactions{{{0, 0, force}, {}}};
   std::vector<contact::Resultant> contacts;
@@ -267,7 +267,7 @@ struct Forces {
   Rounding rounding;
   bool axisymmetric = false;
 
-  Forces()
+  MadeUpForces()
   {
     block.dirichlet_rows({{"lower.zmin", {0.0, 0.0, 0.0}}});
     block.add_traction("lower.zmax", Point(0, 0, -pressed));
@@ -281,7 +281,7 @@ struct Forces {
 
 TEST(Balances, SumWhatActsOverTheLargestForce)
 {
-  Forces forces;
+  MadeUpForces forces;
   auto b = forces();
   EXPECT_NEAR((b.applied - Point(0, 0, -force)).norm(), 0, 1e-12);
   EXPECT_NEAR((b.supports - Point(0, 0, force)).norm(), 0, 1e-12);
@@ -307,7 +307,7 @@ TEST(Balances, SumWhatActsOverTheLargestForce)
 
 TEST(Balances, KnowObstaclesNeighboursAndCouplings)
 {
-  Forces forces;
+  MadeUpForces forces;
   forces.reactions[0].force = {0, 0, 1};
   forces.contacts.resize(3);
   forces.pairs.resize(3);

@@ -12,7 +12,7 @@ bool wants_blocks(const model::Deck& deck, const mesh::Catalogue& catalogue, std
 /// Blocks of bodies, of contacts, and of the boundaries that supports, loads and couplings name, once each. `sides`: as of
 /// contact_sides().
 std::vector<io::Block> named_blocks(const model::Deck& deck, const partition::Decomposition& decomposition,
-                                    const std::vector<contact::Pair>& pairs, const post::Results& results, const Volume& volume,
-                                    const io::Piece& sides);
+                                    const std::vector<contact::Pair>& pairs, const post::StressField& stress,
+                                    const Volume& volume, const io::Piece& sides);
 
 }  // namespace mortise::output

@@ -13,7 +13,7 @@ namespace mortise::output {
 
 /// What the probes found in one state, in the order of their names. Collective.
 std::vector<io::StateSummary::Probe> probe_summaries(const model::Deck& deck, const mesh::Catalogue& catalogue,
-                                                     const post::Probes& probes, const post::Results& results,
+                                                     const post::Probes& probes, const post::Fields& fields,
                                                      const Communicator& comm);
 
 /// probes.csv, with a row for each state, and probe.NAME.csv of each path, with a row for each of its points in each state. Where
@@ -22,10 +22,10 @@ class ProbeFiles {
  public:
   /// Refers to the deck.
   explicit ProbeFiles(const model::Deck& deck) : deck_(deck) {}
-  /// Adds a state, with what probe_summaries() says of it, and writes the files. Throws Error(machine) if one cannot be written.
-  /// Collective.
+  /// Adds a state, with what probe_summaries() says of it and `sampled`, see post::Interior, and writes the files. Throws
+  /// Error(machine) if one cannot be written. Collective.
   void write(const mesh::Catalogue& catalogue, const model::LoadState& acts, const post::Probes& probes,
-             const post::Results& results, const std::vector<io::StateSummary::Probe>& summaries, const Communicator& comm);
+             const post::Values& sampled, const std::vector<io::StateSummary::Probe>& summaries, const Communicator& comm);
 
  private:
   void add_row(const model::LoadState& acts, const std::vector<io::StateSummary::Probe>& summaries);

@@ -4,16 +4,16 @@
 #include <vector>
 
 #include "io/results.hpp"
-#include "post/results.hpp"
+#include "post/interior.hpp"
 
 namespace mortise::output {
 
 /// `nodes/..`: each node from its copy in the lowest subdomain. `displacement`: of each subdomain.
 std::vector<io::Table> node_tables(const partition::Decomposition& decomposition, const partition::Interface& interface,
-                                   const std::vector<Eigen::VectorXd>& displacement, const post::Results& results);
+                                   const std::vector<Eigen::VectorXd>& displacement, const post::StressField& stress);
 
 /// `cells/..`: connectivity and what belongs to cells; of boundary elements the cells are the panels. Collective.
-std::vector<io::Table> cell_tables(const partition::Decomposition& decomposition, const post::Results& results,
+std::vector<io::Table> cell_tables(const partition::Decomposition& decomposition, const post::StressField& stress,
                                    const Communicator& comm);
 
 /// `contact/points`: rows by contact and node, whatever ranks they come from. Collective.

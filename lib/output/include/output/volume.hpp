@@ -29,12 +29,12 @@ struct NodeValues {
 };
 
 /// The material, counted as in Volume, of the cell `cell` of this rank's subdomain `s`; bodies of boundary elements have one.
-std::size_t material_of(const partition::Subdomain& subdomain, const post::Results& results, std::size_t s, std::size_t cell);
+std::size_t material_of(const partition::Subdomain& subdomain, const post::StressField& stress, std::size_t s, std::size_t cell);
 
 /// The subdomains with the fields that the deck asks for and those of `more`; of boundary elements the cells inside, if they are
 /// asked for. `displacement`: of each subdomain.
 Volume make_volume(const model::Deck& deck, const partition::Decomposition& decomposition,
-                   const std::vector<Eigen::VectorXd>& displacement, const post::Results& results,
+                   const std::vector<Eigen::VectorXd>& displacement, const post::Fields& fields,
                    const std::vector<NodeValues>& more);
 
 }  // namespace mortise::output

@@ -15,24 +15,46 @@
 
 namespace mortise::post {
 
-struct Results {
+/// Of the bodies: what is drawn, sampled and tabulated.
+struct Fields {
   double max_displacement = 0;
   StressField stress;
   Interior interior;              ///< see evaluate_interior()
   std::vector<Extreme> extremes;  ///< see find_extremes()
-  ContactResults contact;
-  std::vector<ContactMoment> moments;    ///< of each contact; none in axisymmetry
-  LargeTurn turn;                        ///< what small displacements leave out
+};
+
+/// What holds the bodies and loads them, contacts aside.
+struct Forces {
   std::vector<Reaction> reactions;       ///< of each support
   std::vector<CouplingState> couplings;  ///< of each coupling, by name
   std::vector<SpringState> springs;      ///< of each spring between points, by name
   Balance balance;
   std::vector<feti::UnresistedLoad> unresisted;  ///< see DualProblem::unresisted_loads()
   std::vector<double> shortenings;               ///< of each pretension section, given or found
+};
+
+/// How exactly all of it is known.
+struct Accuracy {
   Residuals residuals;
   double algebraic_error = 0;                ///< of the solver, relative, in the energy norm; NaN: not estimated
   std::vector<ContactError> contact_errors;  ///< the part of the mesh's error that contacts have
   MeshError mesh_error;
+};
+
+/// What small displacements, and rows between sides that lie apart, leave out: for warnings alone.
+struct Neglected {
+  std::vector<ContactMoment> moments;  ///< of each contact; none in axisymmetry
+  LargeTurn turn;
+};
+
+/// The parts by what takes them: field files and probes, contact files, the printed balance, warnings, the exit status; the
+/// summary and the checks read all but a few.
+struct Results {
+  Fields fields;
+  ContactResults contact;
+  Forces forces;
+  Accuracy accuracy;
+  Neglected neglected;
   Verdict verdict;
 };
 
@@ -58,6 +80,6 @@ struct Equilibrium {
 };
 
 /// Evaluates, and changes nothing. Whether it is solved, and what to say if not, stands in the verdict. Collective.
-Results evaluate(const Equilibrium& equilibrium, const ElasticBodies& bodies, const Communicator& comm);
+Results evaluate(const Equilibrium& e, const ElasticBodies& bodies, const Communicator& comm);
 
 }  // namespace mortise::post
