@@ -59,9 +59,9 @@ analysis::Observer Report::LoadSteps::observer(const Begun& begun)
 }
 
 // Whether the fields of the state are to be written.
-bool Report::LoadSteps::is_due(const Begun& begun, bool converged) const
+bool Report::LoadSteps::is_due(const Begun& begun, const post::Verdict& verdict) const
 {
-  return ends_a_step(begun.acts) || !converged || begun.increment % deck_.output.every == 0;
+  return ends_a_step(begun.acts) || !verdict.solved() || begun.increment % deck_.output.every == 0;
 }
 
 bool Report::LoadSteps::gave_up(const analysis::StepState& state)
@@ -89,7 +89,7 @@ auto Report::LoadSteps::write(const Begun& begun, const analysis::StepState& sta
   run_.warnings_.add(analysis::check_results(model, state, results, comm));
   {
     const auto scope = context_.timers.scope("output");
-    files_.write(found, is_due(begun, summary.converged), begun.index == states_ || !summary.converged, comm);
+    files_.write(found, is_due(begun, results.verdict), begun.index == states_ || !results.verdict.solved(), comm);
     probe_files_.write(model.decomposition().catalogue, begun.acts, probes, results.fields.interior.sampled, summary.probes,
                        comm);
     collectively(comm, [&] {
@@ -135,7 +135,7 @@ void Report::LoadSteps::fail(const Error& error, const Begun& begun, std::option
 bool Report::LoadSteps::goes_on(Written& last) const
 {
   if (last.state.index == states_) return false;
-  if (!last.summary.converged) {
+  if (!last.verdict.solved()) {
     context_.log.line("Step {} did not converge; the {} states after it are not solved.", last.state.acts.step,
                       states_ - last.state.index);
     return false;
@@ -172,9 +172,8 @@ ExitStatus Report::LoadSteps::end(Written& last) const
   print_communication(summary, log);
   print_times(spreads, log);
   print_warnings(run_.warnings_, log);
-  const auto status = last.verdict.status;
-  if (status == ExitStatus::solved) restart_.remove();
-  return status;
+  if (last.verdict.solved()) restart_.remove();
+  return last.verdict.status;
 }
 
 }  // namespace mortise

@@ -58,7 +58,7 @@ class Report::LoadSteps {
 
  private:
   [[noreturn]] void fail(const Error& error, const Begun& begun, std::optional<Written>& before) const;
-  bool is_due(const Begun& begun, bool converged) const;
+  bool is_due(const Begun& begun, const post::Verdict& verdict) const;
   void write_summary(io::Summary& summary, bool finished) const;
 
   Report& run_;

@@ -248,7 +248,7 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
                      2 * fields.stress.strain_energy, *std::ranges::min_element(softest), comm));
   append(result, post::strained_supports(support_loads(model, forces.reactions, comm), forces.balance.acting));
   append(result, post::point_forces(point_forces(model, state.rows->acts, forces), forces.balance.acting));
-  if (verdict.status == ExitStatus::solved)
+  if (verdict.solved())
     append(result, post::unreached_tolerance(accuracy.residuals, deck.solver.programme.tolerance.value.value_or(0),
                                              accuracy.algebraic_error));
   append(result, post::coarse_mesh(accuracy.mesh_error, names));

@@ -194,7 +194,7 @@ io::Summary summarise(const model::Model& model, const EvaluatedState& found, co
   summary.bodies = static_cast<Global>(catalogue.bodies.size());
   for (const auto& body : catalogue.bodies) summary.body_names.push_back(body.name);
   summary.ranks = comm.size();
-  summary.converged = results.verdict.status == ExitStatus::solved;
+  summary.converged = results.verdict.solved();
   summary.exit_status = static_cast<int>(results.verdict.status);
   add_work(found.state.solved, summary);
   add_figures(results.fields, results.accuracy, catalogue, summary);

@@ -23,9 +23,8 @@ constexpr double error_that_excuses = 1e-2;
 constexpr double equilibrium_limit = 1e-5;
 constexpr double imbalance_limit = 1e-3;
 constexpr double balanced = 1e-10;  // forces on every subdomain: the rest is rounding
-// No estimate above this is a solution, whatever the mesh allows.
+// No estimate above this is a solution, whatever the mesh allows. What it allows is the solver's to keep.
 constexpr double error_limit = 0.25;
-constexpr double slack = 1.1;  // of an allowed error, since it was asked for some products before
 
 constexpr double drifting = 0.5;  // sizes
 
@@ -49,8 +48,7 @@ std::string unfit(const Evidence& e)
   check("interfaces", e.interfaces, std::max(interfaces_limit, e.tolerance));
   check("complementarity", e.complementarity, std::max(complementarity_limit, e.tolerance));
   check("balance of forces", e.imbalance, imbalance_limit);
-  if (!std::isnan(e.algebraic_error))
-    check("the solver's error", e.algebraic_error, std::min(error_limit, slack * e.allowed_error));
+  if (!std::isnan(e.algebraic_error)) check("the solver's error", e.algebraic_error, error_limit);
   return text;
 }
 
@@ -87,12 +85,12 @@ std::vector<Warning> unreached_tolerance(const Residuals& residuals, double tole
 {
   constexpr double more = 2;  // the last digit of a residual is rounding
   if (!(tolerance > 0) || !(residuals.projected_gradient > more * tolerance)) return {};
-  Warning w{
-      "unreached_tolerance",
-      fmt::format("the projected gradient comes down to {:.1e} and not to solver.tolerance = {:.1e}: rounding leaves no less on this mesh; "
-                  "the solver's error is {:.1e} in the energy norm",
-                  residuals.projected_gradient, tolerance, algebraic_error),
-      "nothing, or a tolerance that can be reached"};
+  Warning w{"unreached_tolerance",
+            fmt::format("the projected gradient comes down to {:.1e} and not to solver.tolerance = {:.1e}: rounding leaves no "
+                        "less on this mesh; "
+                        "the solver's error is {:.1e} in the energy norm",
+                        residuals.projected_gradient, tolerance, algebraic_error),
+            "nothing, or a tolerance that can be reached"};
   w.value = residuals.projected_gradient;
   w.limit = tolerance;
   return {w};

@@ -11,10 +11,10 @@ namespace mortise::feti {
 
 struct DualSolution {
   qp::Solution solution;
-  std::vector<double> slip_bounds = {};  ///< of each disc of DualProblem::set(), forces: infinite where it sticks
-  int steps = 1;                         ///< Tresca problems solved
-  double change = 0;                     ///< relative, of the slip bounds in the last step
-  bool converged = false;
+  std::vector<double> slip_bounds = {};   ///< of each disc of DualProblem::set(), forces: infinite where it sticks
+  int steps = 1;                          ///< Tresca problems solved
+  double change = 0;                      ///< relative, of the slip bounds in the last step
+  bool converged = false;                 ///< as qp::Goal has it, and slip bounds, if they follow, are at rest
   std::string limit = {};                 ///< the key of the deck that ended it early, if one did, and a remark
   bool gave_up = false;                   ///< patience ended first: another approach is to go on
   int applications = 0;                   ///< products with F, of this load step

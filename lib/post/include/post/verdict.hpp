@@ -28,13 +28,11 @@ struct Residuals {
 /// What one equilibrium claims. A number that is not finite is a failure, but for error estimates, where NaN says that none was
 /// made.
 struct Evidence : Residuals {
-  bool converged = false;  ///< by the solver's own criterion
+  bool converged = false;  ///< which the solver alone decides, see qp::Goal and, with Coulomb's law, friction::solve_coulomb()
   std::string limit;       ///< the key of the deck that ended the solver early, or ""
   double tolerance = 0;    ///< the relative residual that the deck asks for; 0: auto
   double imbalance = 0;    ///< of all forces, over the largest: Balance::difference
-  /// Of the solver, relative, in the energy norm: estimated, and what the stopping criterion allows.
-  double algebraic_error = std::numeric_limits<double>::quiet_NaN();
-  double allowed_error = std::numeric_limits<double>::infinity();
+  double algebraic_error = std::numeric_limits<double>::quiet_NaN();  ///< of the solver, relative, in the energy norm
   Drift drift;
 };
 
@@ -43,15 +41,18 @@ struct Verdict {
   ExitStatus status = ExitStatus::solved;
   std::string headline;  ///< "Solved." or what it is instead
   std::string reason;    ///< a sentence with the numbers that decided and a cure; empty if solved
+
+  bool solved() const { return status == ExitStatus::solved; }
 };
 
-/// Solved: the solver says so, and no number exceeds its limit (a residual: the fixed limit, or the deck's tolerance if that is
-/// larger), however far bodies move: something soft may carry them. No equilibrium: a body drifts by half its size while some
-/// number does not fit. Else not converged. Depends on its argument alone.
+/// The one place that decides the exit status of a solution. Solved: the solver converged, and no number exceeds its limit (a
+/// residual: the fixed limit, or the deck's tolerance if that is larger), however far bodies move: something soft may carry them.
+/// No equilibrium: a body drifts by half its size while some number does not fit. Else not converged. Depends on its argument
+/// alone.
 Verdict verdict(const Evidence& evidence);
 
-/// "unreached_tolerance": of an equilibrium that is solved, the projected gradient is more than twice the `tolerance` that the deck asks
-/// for (0: auto), as rounding leaves no less. `algebraic_error`: see Results.
+/// "unreached_tolerance": of an equilibrium that is solved, the projected gradient is more than twice the `tolerance` that the
+/// deck asks for (0: auto), as rounding leaves no less. `algebraic_error`: see Results.
 std::vector<Warning> unreached_tolerance(const Residuals& residuals, double tolerance, double algebraic_error);
 
 }  // namespace mortise::post
