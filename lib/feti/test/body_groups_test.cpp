@@ -50,9 +50,9 @@ TEST(BodyGroups, CouplingsTieWhatTheyMoveAndNotWhatTheyHold)
 {
   Blocks blocks({{"a", cube(0, 0)}, {"b", cube(5, 0)}}, {{"a", {1, 1, 1}}, {"b", {1, 1, 1}}}, [](int) { return 1.0; });
   blocks.dirichlet_rows({{"a.zmin", {0, 0, 0}}, {"b.zmin", {0, 0, 0}}});
-  for (auto& held : blocks.constraints.prescribed) held.coupling = 0;
+  for (auto& dof : blocks.constraints.prescribed) dof.coupling = 0;
   EXPECT_NE(groups_of(blocks).of_body[0], groups_of(blocks).of_body[1]);
-  for (auto& held : blocks.constraints.prescribed) held.unknown = true;
+  for (auto& dof : blocks.constraints.prescribed) dof.unknown = true;
   EXPECT_EQ(groups_of(blocks).of_body[0], groups_of(blocks).of_body[1]);
 }
 

@@ -44,7 +44,7 @@ TEST(Reactions, OfAnElasticFoundation)
   constexpr double foundation = 50;  // a pressure over a length
   Pieces column(false);
   column.guide(false);
-  std::erase_if(column.constraints.prescribed, [](const auto& held) { return held.support == 0; });
+  std::erase_if(column.constraints.prescribed, [](const auto& dof) { return dof.support == 0; });
   auto& springs = column.constraints.springs;
   const auto ground = column.section("lower.zmin", 0);
   springs.stiffness.resize(static_cast<int>(ground.size()), static_cast<int>(ground.size()));

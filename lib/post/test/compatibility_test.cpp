@@ -21,7 +21,7 @@ TEST(DistanceFromSupports, IsThatAlongWhatTheyPrescribe)
 {
   Pieces block(false);
   block.guide(false);
-  for (auto& held : block.constraints.prescribed) held.value = held.support == 0 ? 0.25 : 0;
+  for (auto& dof : block.constraints.prescribed) dof.value = dof.support == 0 ? 0.25 : 0;
   const auto problem = block.problem();
   const auto distance = [&](const Point& shift) {
     return distance_from_supports(problem, block.displacement([&](const Point&, int) { return shift; }), no_motion(problem));

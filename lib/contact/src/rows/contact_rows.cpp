@@ -99,11 +99,14 @@ class ContactRows {
   {
     const bool alone = options().obstacle || options().cyclic || s_.supports.empty() || s_.primary_supports.empty();
     if (!bonded() || alone || !s_.discretization->others_take_over()) return {};
-    const auto held_opposite = [&](std::size_t p, const Point& axis) {
+    const auto prescribed_opposite = [&](std::size_t p, const Point& axis) {
       return !matches_[p] && s_.rays.meets(p) && opposite_supports_.prescribe(s_.rays.meet(p), axis);
     };
-    const auto held_on_primary = [&](Local node, const Point& axis) { return opposite_supports_.hold(node, axis); };
-    return {s_.secondary, s_.nodes, s_.faces, s_.supports, chosen_.kept, held_opposite, held_on_primary, s_.dimension};
+    const auto prescribed_on_primary = [&](Local node, const Point& axis) {
+      return opposite_supports_.prescribe_node(node, axis);
+    };
+    return {s_.secondary,          s_.nodes,    s_.faces, s_.supports, chosen_.kept, prescribed_opposite,
+            prescribed_on_primary, s_.dimension};
   }
 
   std::optional<BondedNodes> bonded_nodes(const OthersNodes& others)
@@ -261,8 +264,8 @@ class ContactRows {
     writer_.leave_what_moves(terms_, node.normal, node.tangents);
     const auto others = other_tangents(node.normal, node.tangents, s_.dimension);
     for (const auto& tangent : writer_.across_axis(here, node.normal, others)) {
-      const auto held = writer_.held_on_both_sides(terms_, node.normal, tangent);
-      if (held) held->moves ? node.tangents.push_back(held->axis) : prescribed.push_back(held->axis);
+      const auto on_both = writer_.prescribed_on_both_sides(terms_, node.normal, tangent);
+      if (on_both) on_both->moves ? node.tangents.push_back(on_both->axis) : prescribed.push_back(on_both->axis);
     }
     return prescribed;
   }

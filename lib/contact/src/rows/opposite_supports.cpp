@@ -20,7 +20,7 @@ bool OppositeSupports::prescribe(const Opposite& opposite, const Point& directio
   double free = 0, all = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const double part = std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]);
-    if (!hold(nodes[k], direction)) free += part;
+    if (!prescribe_node(nodes[k], direction)) free += part;
     all += part;
   }
   return free < next_to_nothing * all;

@@ -29,7 +29,7 @@ class OppositeSupports {
   }
 
   /// Whether supports hold a node of the primary side along a direction.
-  bool hold(Local node, const Point& direction) const
+  bool prescribe_node(Local node, const Point& direction) const
   {
     return supports_.holds(primary_.node_id[static_cast<std::size_t>(node)], rotated_back(direction), dimension_);
   }

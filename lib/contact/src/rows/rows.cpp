@@ -219,20 +219,20 @@ double RowWriter::part_at_prescribed_nodes(std::span<const Term> terms, bool on_
   return all != 0 ? prescribed / all : 1;
 }
 
-std::optional<RowWriter::Held> RowWriter::held_on_both_sides(std::span<const Term> terms, const Point& normal,
-                                                             const Point& tangent) const
+std::optional<RowWriter::Prescribed> RowWriter::prescribed_on_both_sides(std::span<const Term> terms, const Point& normal,
+                                                                         const Point& tangent) const
 {
   constexpr double nothing = 1e-12, least_askew = 1e-3;
-  const double held = std::min(part_at_prescribed_nodes(terms, false, tangent), part_at_prescribed_nodes(terms, true, tangent));
-  if (!(held > least_prescribed)) return {};
+  const double part = std::min(part_at_prescribed_nodes(terms, false, tangent), part_at_prescribed_nodes(terms, true, tangent));
+  if (!(part > least_prescribed)) return {};
   const auto secondary = motion_at_prescribed_nodes(terms, false, tangent, least_askew),
              primary = motion_at_prescribed_nodes(terms, true, tangent, least_askew);
   const bool alike = secondary && primary && (*secondary - *primary).norm() < least_askew;
-  if (!secondary || !primary || alike) return Held{tangent, false};
-  if (askew_part(terms, normal, tangent) > least_askew) return Held{tangent, true};
+  if (!secondary || !primary || alike) return Prescribed{tangent, false};
+  if (askew_part(terms, normal, tangent) > least_askew) return Prescribed{tangent, true};
   const Point moves = mobility(terms) * normal;
-  if (moves.squaredNorm() < nothing) return Held{tangent, false};
-  return Held{Point(tangent - moves * (moves.dot(tangent) / moves.squaredNorm())).normalized(), false};
+  if (moves.squaredNorm() < nothing) return Prescribed{tangent, false};
+  return Prescribed{Point(tangent - moves * (moves.dot(tangent) / moves.squaredNorm())).normalized(), false};
 }
 
 double RowWriter::askew_part(std::span<const Term> terms, const Point& normal, const Point& axis) const

@@ -74,14 +74,15 @@ class RowWriter {
   void add(std::span<const Term> terms, double d, const Point& axis, double bound, constraint::Contacts& contacts,
            std::span<const Couple> couples = {});
   /// Where supports hold more than a tenth of each side along a tangent, enough to bear what rubs there.
-  struct Held {
+  struct Prescribed {
     Point axis;  ///< along which they bear it: what of the tangent does not move with the normal, a unit vector
     bool moves;  ///< nodes that they hold askew move along the tangent otherwise, so that friction would be lost without a row
   };
-  std::optional<Held> held_on_both_sides(std::span<const Term> terms, const Point& normal, const Point& tangent) const;
+  std::optional<Prescribed> prescribed_on_both_sides(std::span<const Term> terms, const Point& normal,
+                                                     const Point& tangent) const;
   /// Appends a row along which nothing moves but supports, so that what they make of it stands in its bound, or hardly anything:
   /// nodes that supports leave free leave their part to the others of their side, lest forces are lost. For axes of
-  /// held_on_both_sides().
+  /// prescribed_on_both_sides().
   void add_prescribed(std::span<const Term> terms, double d, const Point& axis, constraint::Contacts& contacts);
 
  private:

@@ -244,8 +244,8 @@ void RowsBetween::add_to(constraint::Contacts& contacts, const SupportDirectory&
       std::erase_if(node.tangents, [&](const Point& tangent) { return !writer.moves(terms, 1, tangent); });
       writer.leave_what_moves(terms, node.normal, node.tangents);
       for (const auto& tangent : other_tangents(node.normal, node.tangents, dimension))
-        if (const auto held = writer.held_on_both_sides(terms, node.normal, tangent))
-          (held->moves ? node.tangents : fixed).push_back(held->axis);
+        if (const auto on_both = writer.prescribed_on_both_sides(terms, node.normal, tangent))
+          (on_both->moves ? node.tangents : fixed).push_back(on_both->axis);
     }
     const bool rings = setting.kinematics == fem::Kinematics::axisymmetric;  // these do not turn
     const Moments moments = rings ? Moments()

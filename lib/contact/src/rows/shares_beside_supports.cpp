@@ -16,13 +16,13 @@ bool same(const Point& a, const Point& b)
 }
 
 // The directions in the surface along which supports hold a surface node and what lies opposite.
-template <class HeldOpposite>
-Few<Point, 3> held_on_both_sides(const SurfaceNode& node, Global id, std::size_t p, const SupportedNodes& supports,
-                                 const HeldOpposite& held_opposite, int dimension)
+template <class PrescribedOpposite>
+Few<Point, 3> prescribed_on_both_sides(const SurfaceNode& node, Global id, std::size_t p, const SupportedNodes& supports,
+                                       const PrescribedOpposite& prescribed_opposite, int dimension)
 {
   Few<Point, 3> result;
   const auto take = [&](const Point& axis) {
-    if (result.size() < 3 && std::abs(axis.dot(node.normal)) < in_surface && held_opposite(p, axis)) result.push_back(axis);
+    if (result.size() < 3 && std::abs(axis.dot(node.normal)) < in_surface && prescribed_opposite(p, axis)) result.push_back(axis);
   };
   for (int c = 0; c < dimension; ++c)
     if (supports.find(id, c)) take(Point::Unit(c));
@@ -31,8 +31,8 @@ Few<Point, 3> held_on_both_sides(const SurfaceNode& node, Global id, std::size_t
 }
 
 // The part of what lies opposite a function of a piece that supports leave free along a direction, at the least.
-template <class HeldOnPrimary>
-double part_that_moves(const PieceStore::View& piece, const Point& axis, const HeldOnPrimary& held_on_primary)
+template <class PrescribedOnPrimary>
+double part_that_moves(const PieceStore::View& piece, const Point& axis, const PrescribedOnPrimary& prescribed_on_primary)
 {
   double least = 1;
   for (Eigen::Index k = 0; k < piece.covered.size(); ++k) {
@@ -40,7 +40,7 @@ double part_that_moves(const PieceStore::View& piece, const Point& axis, const H
     for (std::size_t j = 0; j < piece.nodes.size(); ++j) {
       const double part = piece.opposite(k, static_cast<Eigen::Index>(j));
       all += part;
-      if (!held_on_primary(piece.nodes[j], axis)) free += part;
+      if (!prescribed_on_primary(piece.nodes[j], axis)) free += part;
     }
     if (all > 0) least = std::min(least, free / all);
   }
@@ -51,14 +51,15 @@ double part_that_moves(const PieceStore::View& piece, const Point& axis, const H
 
 SharesBesideSupports::SharesBesideSupports(const Side& secondary, const SurfaceNodes& nodes, CutFaces& faces,
                                            const SupportedNodes& supports, std::span<const char> kept,
-                                           const HeldOpposite& held_opposite, const HeldOnPrimary& held_on_primary, int dimension)
+                                           const PrescribedOpposite& prescribed_opposite,
+                                           const PrescribedOnPrimary& prescribed_on_primary, int dimension)
     : secondary_(&secondary), given_(nodes.all.size())
 {
   if (supports.empty()) return;
   for (std::size_t p = 0; p < given_.size(); ++p)
-    given_[p] = held_on_both_sides(nodes.all[p], secondary.node_id[static_cast<std::size_t>(nodes.all[p].node)], p, supports,
-                                   held_opposite, dimension);
-  find_strays(faces, kept, held_on_primary);
+    given_[p] = prescribed_on_both_sides(nodes.all[p], secondary.node_id[static_cast<std::size_t>(nodes.all[p].node)], p,
+                                         supports, prescribed_opposite, dimension);
+  find_strays(faces, kept, prescribed_on_primary);
   for (const std::size_t f : faces.near())
     for (const Point& axis : axes_of(f, faces))
       for (const std::size_t i : faces.pieces(f)) {
@@ -107,7 +108,8 @@ std::vector<std::size_t> SharesBesideSupports::takers_beside(std::size_t face, c
 }
 
 // Of pieces that have nobody to take over along an axis. A node that keeps its share there keeps as well what it has elsewhere.
-void SharesBesideSupports::find_strays(CutFaces& faces, std::span<const char> kept, const HeldOnPrimary& held_on_primary)
+void SharesBesideSupports::find_strays(CutFaces& faces, std::span<const char> kept,
+                                       const PrescribedOnPrimary& prescribed_on_primary)
 {
   constexpr double half = 0.5;  // of what lies opposite, see ContactRows::freedom_of_primary()
   std::vector<std::pair<std::size_t, Point>> kept_shares;
@@ -120,7 +122,7 @@ void SharesBesideSupports::find_strays(CutFaces& faces, std::span<const char> ke
         const auto piece = faces.piece(i);
         const bool of_nodes = piece.point_facet.empty();
         if (!(piece.covered.sum() > 0) || (of_nodes && !nobody(f, piece, axis))) continue;
-        if (of_nodes && part_that_moves(piece, axis, held_on_primary) < half)
+        if (of_nodes && part_that_moves(piece, axis, prescribed_on_primary) < half)
           if (auto beside = takers_beside(f, axis, kept, faces); !beside.empty()) {
             strays_.push_back({f, i, axis, std::move(beside)});
             continue;
