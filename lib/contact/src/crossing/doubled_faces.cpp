@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "pairing/skin.hpp"
-#include "search/near.hpp"
+#include "search/boxes.hpp"
 
 namespace mortise::contact {
 

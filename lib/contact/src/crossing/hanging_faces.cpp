@@ -5,7 +5,7 @@
 
 #include "crossing/near_itself.hpp"
 #include "pairing/facing.hpp"
-#include "search/near.hpp"
+#include "search/boxes.hpp"
 #include "surface/bulge.hpp"
 #include "surface/surface_nodes.hpp"
 

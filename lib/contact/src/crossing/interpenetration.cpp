@@ -9,7 +9,7 @@
 #include "crossing/skin_edges.hpp"
 #include "pairing/facing.hpp"
 #include "pairing/skin.hpp"
-#include "search/near.hpp"
+#include "search/boxes.hpp"
 #include "surface/closest_point.hpp"
 
 namespace mortise::contact {

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "search/near.hpp"
+#include "search/boxes.hpp"
 
 namespace mortise::contact {
 

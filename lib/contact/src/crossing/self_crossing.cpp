@@ -9,7 +9,7 @@
 #include "crossing/near_itself.hpp"
 #include "crossing/skin_edges.hpp"
 #include "pairing/facing.hpp"
-#include "search/near.hpp"
+#include "search/boxes.hpp"
 #include "surface/closest_point.hpp"
 
 namespace mortise::contact {

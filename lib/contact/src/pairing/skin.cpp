@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "search/near.hpp"
+#include "search/boxes.hpp"
 
 namespace mortise::contact {
 

@@ -13,31 +13,30 @@ constexpr double next_to_nothing = 0.1;
 
 }  // namespace
 
-bool OppositeSupports::prescribe(const Opposite& opposite, const Point& direction) const
+template <class Freedom>
+bool OppositeSupports::leave_nothing_free(const Opposite& opposite, const Freedom& freedom) const
 {
   if (!std::isfinite(opposite.gap)) return true;
   const auto nodes = primary_.facets[opposite.facet];
   double free = 0, all = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const double part = std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]);
-    if (!prescribe_node(nodes[k], direction)) free += part;
+    free += part * freedom(primary_.node_id[static_cast<std::size_t>(nodes[k])]);
     all += part;
   }
   return free < next_to_nothing * all;
 }
 
+bool OppositeSupports::prescribe(const Opposite& opposite, const Point& direction) const
+{
+  const Point there = rotated_back(direction);
+  return leave_nothing_free(opposite, [&](Global node) { return supports_.holds(node, there, dimension_) ? 0.0 : 1.0; });
+}
+
 bool OppositeSupports::prescribe_all(const Opposite& opposite, const Point& direction) const
 {
-  if (!std::isfinite(opposite.gap)) return true;
-  const auto nodes = primary_.facets[opposite.facet];
   const Point there = rotated_back(direction);
-  double free = 0, all = 0;
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const double part = std::abs(opposite.hit.shape[static_cast<Eigen::Index>(k)]);
-    free += part * supports_.freedom(primary_.node_id[static_cast<std::size_t>(nodes[k])], there, dimension_);
-    all += part;
-  }
-  return free < next_to_nothing * all;
+  return leave_nothing_free(opposite, [&](Global node) { return supports_.freedom(node, there, dimension_); });
 }
 
 Eigen::Matrix3d OppositeSupports::free_part(const Opposite& opposite) const

@@ -45,11 +45,14 @@ class OppositeSupports {
   /// Of a surface node, what lies opposite a place where its multipliers stand.
   using Test = std::function<bool(std::size_t node, const Opposite& opposite)>;
   /// Of each surface node whether the test holds where its multipliers stand: at the node, or, past the border of the primary
-  /// side, at the points inside to which the functions of faces that it covers in part belong; of
-  /// several points at all.
+  /// side, at the points inside to which the functions of faces that it covers in part belong; of several points at all.
   std::vector<char> prescribed(CutFaces& faces, const Test& test) const;
 
  private:
+  // Whether next to nothing of the shape functions opposite is free, where `freedom`(node) of each node is; true where there is
+  // nothing opposite.
+  template <class Freedom>
+  bool leave_nothing_free(const Opposite& opposite, const Freedom& freedom) const;
   Point rotated_back(const Point& direction) const
   {
     return rotation_ ? Point(rotation_->rotation.transpose() * direction) : direction;

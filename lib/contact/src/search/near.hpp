@@ -1,10 +1,7 @@
 // Of two surfaces the parts that can meet: a roller sees a seventieth of its ring.
 #pragma once
 
-#include <functional>
-
 #include "contact/mortar.hpp"
-#include "search/tree.hpp"
 
 namespace mortise::contact {
 
@@ -27,16 +24,5 @@ inline constexpr double slack = 1.5;
 /// This rank's secondary faces that lie near the primary side, and enough of those round them that every node within reach has
 /// all its faces, and the normals that it has on the whole surface. All of them over an obstacle. Collective.
 mesh::Surface near_secondary(const Pair& pair, const PairSize& size, const Communicator& comm);
-
-/// Boxes round the nodes of faces.
-std::vector<Box> boxes_of_faces(const mesh::Surface& side);
-
-/// Halves the boxes `order` at the median of their longest side until no part has more than `most`; `use` gets the box round each
-/// part and its members.
-void halve(const std::vector<Box>& boxes, std::span<int> order, std::size_t most,
-           const std::function<void(const Box&, std::span<const int>)>& use);
-
-/// The faces `chosen`, ascending, of a surface, as a surface of their own.
-mesh::Surface part_of(const mesh::Surface& side, std::span<const std::size_t> chosen);
 
 }  // namespace mortise::contact

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "pairing/skin.hpp"
+#include "search/boxes.hpp"
 #include "surface/kinks.hpp"
 
 namespace mortise::contact {
