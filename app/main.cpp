@@ -43,6 +43,7 @@ analysis::Outcome solve_load_steps(const model::Model& model, const post::Probes
       state =
           record ? solver.take_up(acts, std::move(state), *record) : solver.solve(acts, std::move(state), steps.observer(begun));
       if (steps.gave_up(*state)) return solver.given_up(*state);
+      if (&acts == &states.back()) solver.let_go();
       const auto results = analysis::evaluate(assembly, *state, probes, context);
       written = steps.write(begun, *state, probes, results, written);
       steps.keep(*written, *state);

@@ -118,79 +118,59 @@ Interface find_interface(const Decomposition& decomposition, const NodeDirectory
   return interface;
 }
 
-namespace {
-
-// row(s, n): where values[s] has shared node n of subdomain s.
-template <class Row>
-void sum_rows(const Decomposition& decomposition, const Interface& interface, std::vector<Eigen::MatrixXd>& values,
-              const Communicator& comm, const Row& row_of)
+void sum_rows(const Decomposition& decomposition, const Interface& interface, Eigen::Index width, const RowOfNode& row_at,
+              const Communicator& comm)
 {
-  if (comm.max(static_cast<long long>(values.size())) == 0) return;
-  const auto width = static_cast<Eigen::Index>(comm.max(static_cast<long long>(values.empty() ? 0 : values[0].cols())));
-  // Each copy sends its row to all other copies; what arrives is sorted by node and by subdomain of origin before it is added. On
-  // this rank rows are read where one copy of them stands.
   struct Head {
-    Global to, from;
+    Global to;
     Local node;
   };
-  struct Term {
-    Head head;
-    const double* row;
-  };
   const auto ranks = static_cast<std::size_t>(comm.size()), here = static_cast<std::size_t>(comm.rank());
+  const Global base = decomposition.first[here];
+  // Each copy sends its row to all copies, itself included. Subdomains are numbered rank by rank: what is added in the order of
+  // ranks, and on each of subdomains, is added in the order of subdomains.
   std::vector<std::vector<Head>> heads(ranks);
   std::vector<std::vector<double>> rows(ranks), before;
-  std::vector<Term> terms;
-  for (std::size_t s = 0; s < interface.nodes.size(); ++s) {
-    auto& own = before.emplace_back(static_cast<std::size_t>(width) * interface.nodes[s].size());
-    for (std::size_t i = 0; i < interface.nodes[s].size(); ++i) {
-      double* const row = own.data() + static_cast<std::size_t>(width) * i;
-      Eigen::Map<Eigen::RowVectorXd>(row, width) = values[s].row(row_of(s, interface.nodes[s][i]));
-      for (const auto& copy : interface.copies[s][i]) {
-        const auto rank = static_cast<std::size_t>(decomposition.rank_of(copy.subdomain));
-        const Head head{copy.subdomain, decomposition.subdomains[s].id, copy.node};
-        if (rank == here) {
-          terms.push_back({head, row});
-          continue;
-        }
-        heads[rank].push_back(head);
-        rows[rank].insert(rows[rank].end(), row, row + width);
-      }
+  const auto each_own = [&](const auto& visit) {
+    for (std::size_t s = 0; s < interface.nodes.size(); ++s)
+      for (std::size_t i = 0; i < interface.nodes[s].size(); ++i)
+        if (auto row = row_at(s, interface.nodes[s][i]); row.size() > 0)
+          visit(row, s, i, before[s].data() + static_cast<std::size_t>(width) * i);
+  };
+  for (const auto& nodes : interface.nodes) before.emplace_back(static_cast<std::size_t>(width) * nodes.size());
+  each_own([&](auto& row, std::size_t s, std::size_t i, double* own) {
+    Eigen::Map<Eigen::RowVectorXd>(own, width) = row;
+    row.setZero();
+    for (const auto& copy : interface.copies[s][i]) {
+      const auto rank = static_cast<std::size_t>(decomposition.rank_of(copy.subdomain));
+      if (rank == here) continue;
+      heads[rank].push_back({copy.subdomain, copy.node});
+      rows[rank].insert(rows[rank].end(), own, own + width);
     }
-  }
+  });
   const auto head_in = comm.exchange(heads);
   const auto row_in = comm.exchange(rows);
-  for (std::size_t r = 0; r < ranks; ++r)
+  const auto add = [&](const Head& head, const double* other) {
+    if (auto row = row_at(static_cast<std::size_t>(head.to - base), head.node); row.size() > 0)
+      row += Eigen::Map<const Eigen::RowVectorXd>(other, width);
+  };
+  for (std::size_t r = 0; r < ranks; ++r) {
     for (std::size_t i = 0; i < head_in[r].size(); ++i)
-      terms.push_back({head_in[r][i], row_in[r].data() + static_cast<std::size_t>(width) * i});
-  std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) {
-    return std::tie(a.head.to, a.head.node, a.head.from) < std::tie(b.head.to, b.head.node, b.head.from);
-  });
-  const Global base = decomposition.first[static_cast<std::size_t>(comm.rank())];
-  for (std::size_t i = 0; i < terms.size(); ++i) {
-    const auto& head = terms[i].head;
-    const auto s = static_cast<std::size_t>(head.to - base);
-    auto row = values[s].row(row_of(s, head.node));
-    if (i == 0 || terms[i - 1].head.to != head.to || terms[i - 1].head.node != head.node) row.setZero();
-    row += Eigen::Map<const Eigen::RowVectorXd>(terms[i].row, width);
+      add(head_in[r][i], row_in[r].data() + static_cast<std::size_t>(width) * i);
+    if (r != here) continue;
+    each_own([&](auto&, std::size_t s, std::size_t i, const double* own) {
+      for (const auto& copy : interface.copies[s][i])
+        if (static_cast<std::size_t>(decomposition.rank_of(copy.subdomain)) == here) add({copy.subdomain, copy.node}, own);
+    });
   }
 }
-
-}  // namespace
 
 void sum_over_copies(const Decomposition& decomposition, const Interface& interface, std::vector<Eigen::MatrixXd>& values,
                      const Communicator& comm)
 {
-  sum_rows(decomposition, interface, values, comm, [](std::size_t, Local n) { return n; });
-}
-
-void sum_shared(const Decomposition& decomposition, const Interface& interface, std::vector<Eigen::MatrixXd>& values,
-                const Communicator& comm)
-{
-  sum_rows(decomposition, interface, values, comm, [&](std::size_t s, Local n) {
-    const auto& nodes = interface.nodes[s];
-    return std::lower_bound(nodes.begin(), nodes.end(), n) - nodes.begin();
-  });
+  const auto width = static_cast<Eigen::Index>(comm.max(static_cast<long long>(values.empty() ? 0 : values[0].cols())));
+  sum_rows(
+      decomposition, interface, width, [&](std::size_t s, Local n) { return row_of(values[s], n); }, comm);
 }
 
 }  // namespace mortise::partition

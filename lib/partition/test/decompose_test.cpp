@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <map>
 #include <numeric>
 #include <set>
@@ -173,6 +174,19 @@ TEST(NodeDirectory, KnowsEveryCopy)
   for (std::size_t s = 0; s < values.size(); ++s)
     for (std::size_t n = 0; n < d.subdomains[s].mesh.node_count(); ++n)
       EXPECT_EQ(values[s](static_cast<Eigen::Index>(n), 1), static_cast<double>(copies[d.subdomains[s].mesh.node_id[n]]));
+
+  // The same in columns, without subdomain 1.
+  std::vector<Eigen::MatrixXd> columns;
+  for (const auto& s : d.subdomains)
+    columns.push_back(Eigen::MatrixXd::Constant(2, static_cast<Eigen::Index>(s.mesh.node_count()), s.id == 1 ? 0.5 : 1.0));
+  const auto column_at = [&](std::size_t s, Local n) { return d.subdomains[s].id == 1 ? no_row() : column_of(columns[s], n); };
+  sum_rows(d, interface, 2, column_at, comm);
+  for (std::size_t s = 0; s < columns.size(); ++s)
+    for (std::size_t i = 0; i < interface.nodes[s].size(); ++i) {
+      const auto all = interface.copies[s][i];
+      const auto without = std::count_if(all.begin(), all.end(), [](const Copy& copy) { return copy.subdomain != 1; });
+      EXPECT_EQ(columns[s](1, interface.nodes[s][i]), d.subdomains[s].id == 1 ? 0.5 : static_cast<double>(without));
+    }
 }
 
 TEST(Congruence, CopiesAreFoundAndOthersAreNot)

@@ -108,17 +108,10 @@ namespace {
 void sum_over_pieces(const ElasticBodies& bodies, std::vector<Eigen::MatrixXd>& values, Eigen::Index width,
                      const Communicator& comm)
 {
-  std::vector<Eigen::MatrixXd> shared;
-  for (const auto& nodes : bodies.interface.nodes)
-    shared.push_back(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(nodes.size()), width));
-  const auto each_shared_node = [&](const auto& visit) {
-    for (std::size_t s = 0; s < shared.size(); ++s)
-      for (Eigen::Index i = 0; i < shared[s].rows() && bodies.decomposition.subdomains[s].skin; ++i)
-        visit(shared[s].row(i), values[s].row(bodies.interface.nodes[s][static_cast<std::size_t>(i)]));
+  const auto row = [&](std::size_t s, Local n) {
+    return bodies.decomposition.subdomains[s].skin ? partition::row_of(values[s], n) : partition::no_row();
   };
-  each_shared_node([](auto&& sum, auto&& own) { sum = own; });
-  partition::sum_shared(bodies.decomposition, bodies.interface, shared, comm);
-  each_shared_node([](auto&& sum, auto&& own) { own = sum; });
+  partition::sum_rows(bodies.decomposition, bodies.interface, width, row, comm);
 }
 
 bem::LinearStress stress_round(const bem::ParticularSolution& particular, const Point& x)

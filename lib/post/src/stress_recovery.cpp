@@ -151,26 +151,23 @@ std::vector<Eigen::MatrixXd> patch_sums(const ElasticBodies& bodies, const std::
       width = patches[s].sums.rows();
     }
   width = static_cast<Eigen::Index>(comm.max(static_cast<long long>(width)));
-  std::vector<Eigen::MatrixXd> shared;
-  const auto each_shared_corner = [&](const auto& visit) {
-    for (std::size_t s = 0; s < subdomains.size(); ++s)
-      for (std::size_t i = 0; i < bodies.interface.nodes[s].size() && !subdomains[s].skin; ++i)
-        if (const auto row = patches[s].row[static_cast<std::size_t>(bodies.interface.nodes[s][i])]; row >= 0)
-          visit(shared[s].row(static_cast<Eigen::Index>(i)), patches[s].sums.col(row));
+  const auto sums_at = [&](std::size_t s, Local n) {
+    const auto row = subdomains[s].skin ? -1 : patches[s].row[static_cast<std::size_t>(n)];
+    return row < 0 ? partition::no_row() : partition::column_of(patches[s].sums, row);
   };
-  for (std::size_t s = 0; s < subdomains.size(); ++s)
-    shared.push_back(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(bodies.interface.nodes[s].size()), width));
-  each_shared_corner([](auto&& row, auto&& sums) { row = sums.transpose(); });
-  partition::sum_shared(bodies.decomposition, bodies.interface, shared, comm);
-  each_shared_corner([](auto&& row, auto&& sums) { sums = row.transpose(); });
+  partition::sum_rows(bodies.decomposition, bodies.interface, width, sums_at, comm);
   std::vector<Eigen::MatrixXd> result;
-  for (std::size_t s = 0; s < subdomains.size(); ++s)
-    if (!subdomains[s].skin) mirror_patches(bodies, s, patches[s]);
-  for (std::size_t s = 0; s < subdomains.size(); ++s)
-    result.push_back(subdomains[s].skin ? Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(subdomains[s].mesh.node_count()),
-                                                                7 * static_cast<Eigen::Index>(bodies.blocks))
-                                        : fem::patch_stresses(subdomains[s].mesh, bodies.constitution[s].materials,
-                                                              bodies.kinematics, patches[s], bodies.blocks));
+  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    if (subdomains[s].skin) {
+      result.push_back(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(subdomains[s].mesh.node_count()),
+                                             7 * static_cast<Eigen::Index>(bodies.blocks)));
+      continue;
+    }
+    mirror_patches(bodies, s, patches[s]);
+    result.push_back(
+        fem::patch_stresses(subdomains[s].mesh, bodies.constitution[s].materials, bodies.kinematics, patches[s], bodies.blocks));
+    patches[s] = {};  // they are the largest of all fields
+  }
   partition::sum_over_copies(bodies.decomposition, bodies.interface, result, comm);
   add_rotated(bodies, result, comm);
   return result;
@@ -317,8 +314,10 @@ StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen:
   auto recovered = recover(bodies, displacement, comm);
   const auto& subdomains = bodies.decomposition.subdomains;
   StressField field;
-  for (const auto& stress : recovered.nodal) field.nodal.push_back(governing(stress));
-  if (bodies.blocks > 1) {
+  if (bodies.blocks == 1) {
+    field.nodal = std::move(recovered.nodal);
+  } else {
+    for (const auto& stress : recovered.nodal) field.nodal.push_back(governing(stress));
     for (std::size_t s = 0; s < subdomains.size(); ++s) {
       auto& blocks = field.cell_block.emplace_back();
       for (std::size_t c = 0; c < subdomains[s].mesh.cells.size(); ++c)

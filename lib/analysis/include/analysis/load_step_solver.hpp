@@ -73,6 +73,9 @@ class LoadStepSolver {
   /// The same without solving: takes the solution from the record of an earlier run. Throws as solution_of(). Collective.
   StepState take_up(const model::LoadState& acts, std::optional<StepState> before, const Record& record);
 
+  /// No state comes after the last one: all that solved it goes, in favour of what is recovered from it.
+  void let_go() { drop_solver(); }
+
   /// What comes of a state in which products gave up, the last one. Collective.
   Outcome given_up(const StepState& state) const;
 

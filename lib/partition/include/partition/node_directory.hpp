@@ -3,6 +3,8 @@
 // touched.
 #pragma once
 
+#include <Eigen/Core>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -60,8 +62,26 @@ Interface find_interface(const Decomposition& decomposition, const NodeDirectory
 /// values[s]: nodes of subdomain s x components (the same number of components everywhere). Collective.
 void sum_over_copies(const Decomposition& decomposition, const Interface& interface, std::vector<Eigen::MatrixXd>& values,
                      const Communicator& comm);
-/// The same of the shared nodes alone: values[s] has a row for each of interface.nodes[s], in that order. Collective.
-void sum_shared(const Decomposition& decomposition, const Interface& interface, std::vector<Eigen::MatrixXd>& values,
-                const Communicator& comm);
+
+/// A row of values of a node, wherever it stands.
+using NodeRow = Eigen::Map<Eigen::RowVectorXd, 0, Eigen::InnerStride<>>;
+inline NodeRow row_of(Eigen::MatrixXd& values, Local node)
+{
+  return {values.data() + node, values.cols(), Eigen::InnerStride<>(values.outerStride())};
+}
+/// The row that stands in a column.
+inline NodeRow column_of(Eigen::MatrixXd& values, Local column)
+{
+  return {values.col(column).data(), values.rows(), Eigen::InnerStride<>(1)};
+}
+inline NodeRow no_row()
+{
+  return {nullptr, 0, Eigen::InnerStride<>(1)};
+}
+/// The row of node n of local subdomain s; no_row() where that subdomain has none of this node.
+using RowOfNode = std::function<NodeRow(std::size_t s, Local n)>;
+/// The same of rows of `width` columns, the same everywhere, which are asked for at shared nodes alone. Collective.
+void sum_rows(const Decomposition& decomposition, const Interface& interface, Eigen::Index width, const RowOfNode& row_at,
+              const Communicator& comm);
 
 }  // namespace mortise::partition
