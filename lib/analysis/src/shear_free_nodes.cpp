@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "mesh/shape_functions.hpp"
-#include "partition/skin.hpp"
 #include "planes_at_copies.hpp"
 #include "sent_points.hpp"
 
@@ -191,7 +190,7 @@ std::vector<std::vector<post::SymmetricNode>> find_shear_free_nodes(const model:
                                                                     const partition::NodeDirectory& directory,
                                                                     const Communicator& comm)
 {
-  const auto faces = faces_at_nodes(partition::outer_surface(model.decomposition(), comm), comm);
+  const auto faces = faces_at_nodes(model.outer_surface(comm), comm);
   const auto touched = touches(model, rows, comm);
   const auto pressures = pressures_at_nodes(model, rows.acts, comm);
   std::vector<Global> nodes;

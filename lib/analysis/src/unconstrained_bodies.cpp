@@ -5,7 +5,6 @@
 #include "analysis/checks.hpp"
 #include "base/error.hpp"
 #include "contact/proximity.hpp"
-#include "partition/skin.hpp"
 
 namespace mortise::analysis {
 
@@ -117,7 +116,7 @@ void check_unconstrained_bodies(const model::Model& model, const Rows& rows, con
   alone.flip();
   if (std::none_of(alone.begin(), alone.end(), [](bool b) { return b; })) return;
 
-  const auto nearest = contact::nearest_bodies(partition::outer_surface(decomposition, comm), alone, comm);
+  const auto nearest = contact::nearest_bodies(model.outer_surface(comm), alone, comm);
   const auto moving = driven(model, rows.acts, comm);
   const auto why = searches(rows.pairs, bodies.size(), comm);
   std::string loaded;

@@ -8,7 +8,6 @@
 #include "contact/interpenetration.hpp"
 #include "contact/self_crossing.hpp"
 #include "contact_sides.hpp"
-#include "partition/skin.hpp"
 
 namespace mortise::model {
 
@@ -64,7 +63,7 @@ std::vector<CrossedBodies> crossed_bodies(const Model& model, const std::vector<
   const auto& deck = model.deck();
   const auto& decomposition = model.decomposition();
   const auto bodies = static_cast<int>(decomposition.catalogue.bodies.size());
-  const auto skin = partition::outer_surface(decomposition, comm);
+  const auto& skin = model.outer_surface(comm);
   Eigen::AlignedBox3d box;
   for (const auto& x : skin.points) box.extend(x);
   auto deformed = skin;

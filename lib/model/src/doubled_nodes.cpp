@@ -99,7 +99,7 @@ std::vector<HangingNodes> hanging_nodes(const std::vector<contact::HangingFaces>
 
 OpenSeams open_seams(const Model& model, const Communicator& comm)
 {
-  auto skin = partition::outer_surface(model.decomposition(), comm);
+  auto skin = model.outer_surface(comm);
   const auto first = first_parts(model.decomposition().catalogue);
   for (int& body : skin.body) body = first[static_cast<std::size_t>(body)];
   const auto kinematics = model.deck().kinematics;

@@ -12,6 +12,7 @@
 #include "fem/loads.hpp"
 #include "fem/stiffness.hpp"
 #include "model/patterns.hpp"
+#include "partition/skin.hpp"
 #include "parts.hpp"
 #include "points.hpp"
 
@@ -22,6 +23,12 @@ std::vector<bool> Model::bodies_named(const std::string& name) const
   std::vector<bool> result;
   for (const auto& body : decomposition_.catalogue.bodies) result.push_back(name.empty() || matches_name(body, name));
   return result;
+}
+
+const mesh::Surface& Model::outer_surface(const Communicator& comm) const
+{
+  if (!outer_surface_) outer_surface_ = partition::outer_surface(decomposition_, comm);
+  return *outer_surface_;
 }
 
 Model::Selection Model::select(const std::string& name) const

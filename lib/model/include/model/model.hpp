@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "base/context.hpp"
 #include "constraint/supports.hpp"
@@ -41,6 +42,8 @@ class Model {
   const Contacts& contacts() const { return contacts_; }
   const partition::Decomposition& decomposition() const { return decomposition_; }
   const Temperatures& temperatures() const { return temperatures_; }
+  /// partition::outer_surface(), which the first call makes. Collective.
+  const mesh::Surface& outer_surface(const Communicator& comm) const;
 
   /// The materials of a subdomain, in the same order in every subdomain of a body.
   fem::Materials materials(const partition::Subdomain& subdomain) const;
@@ -157,6 +160,7 @@ class Model {
   const Contacts& contacts_;
   const partition::Decomposition& decomposition_;
   Temperatures temperatures_;
+  mutable std::optional<mesh::Surface> outer_surface_;
 };
 
 }  // namespace mortise::model
