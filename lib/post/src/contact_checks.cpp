@@ -19,43 +19,49 @@ namespace {
 
 constexpr double part_of_moment = 0.01, part_of_forces = 0.01, nothing_beside = 1e-6;
 
-// sum x_n x f_n over this rank's subdomains.
-Point moment(const partition::Decomposition& decomposition, const std::vector<Eigen::VectorXd>& force, int dimension)
+// Of each owned row what it feels of a turn about the axis e_k through the origin: with a multiplier of 1, the moment of its
+// forces about that axis.
+Eigen::VectorXd moments_of_rows(const feti::DualProblem& problem, const partition::Decomposition& decomposition, int k)
 {
-  Point result = Point::Zero();
-  for (std::size_t s = 0; s < force.size(); ++s)
-    for (Eigen::Index i = 0; i < force[s].size(); i += dimension) {
-      Point f = Point::Zero();
-      f.head(dimension) = force[s].segment(i, dimension);
-      result += decomposition.subdomains[s].mesh.points[static_cast<std::size_t>(i / dimension)].cross(f);
-    }
-  return result;
-}
-
-// The part of the multipliers that is a contact's.
-Vector multipliers_of(const feti::DualProblem& problem, const Vector& lambda, int contact)
-{
-  Vector result(lambda.getMap());
-  auto part = view(result);
-  const auto all = view(lambda);
-  const auto& nodes = problem.constraints().contacts.nodes;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto& rows = problem.node_rows()[i];
-    if (nodes[i].contact == contact) part.segment(rows.normal, rows.tangents + 1) = all.segment(rows.normal, rows.tangents + 1);
+  const int dimension = problem.dimension();
+  std::vector<Eigen::VectorXd> turn;
+  for (const auto& subdomain : decomposition.subdomains) {
+    auto& u = turn.emplace_back(dimension * static_cast<Eigen::Index>(subdomain.mesh.node_count()));
+    for (std::size_t n = 0; n < subdomain.mesh.node_count(); ++n)
+      u.segment(dimension * static_cast<Eigen::Index>(n), dimension) =
+          Point(Point::Unit(k).cross(subdomain.mesh.points[n])).head(dimension);
   }
-  return result;
+  return view(problem.jump().apply(turn));
 }
 
-// What contact forces that go straight into supports turn, of the rows of `part`, on this rank.
-Point moment_on_supports(const feti::DualProblem& problem, const Vector& part)
+// Of each contact the sum over its points of x_n x (B' lambda)_n and of what goes straight into supports, of all ranks.
+// Collective.
+std::vector<double> moments(const feti::DualProblem& problem, const Vector& lambda, const partition::Decomposition& decomposition,
+                            std::size_t contacts)
 {
-  const Eigen::VectorXd forces = problem.forces(part);
-  const Local first = problem.jump().ranges().contacts;
-  Point result = Point::Zero();
-  for (const auto& entry : problem.constraints().contacts.prescribed)
-    result += Point(entry.at[0], entry.at[1], entry.at[2])
-                  .cross(entry.coefficient * forces[first + static_cast<Local>(entry.row)] * Point::Unit(entry.component));
-  return result;
+  const auto& nodes = problem.constraints().contacts.nodes;
+  std::vector<double> sums(3 * contacts, 0.0);
+  std::vector<int> contact_of_row(static_cast<std::size_t>(problem.jump().ranges().end), -1);
+  const auto values = view(lambda);
+  for (int k = problem.dimension() == 3 ? 0 : 2; k < 3; ++k) {
+    const Eigen::VectorXd of_rows = moments_of_rows(problem, decomposition, k);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (Local row = problem.node_rows()[i].normal; row <= problem.node_rows()[i].normal + problem.node_rows()[i].tangents;
+           ++row) {
+        contact_of_row[static_cast<std::size_t>(row)] = nodes[i].contact;
+        sums[static_cast<std::size_t>(3 * nodes[i].contact + k)] += values[row] * of_rows[row];
+      }
+  }
+  const Eigen::VectorXd forces = problem.forces(lambda);
+  for (const auto& entry : problem.constraints().contacts.prescribed) {
+    const Local row = problem.jump().ranges().contacts + static_cast<Local>(entry.row);
+    const int contact = contact_of_row[static_cast<std::size_t>(row)];
+    const Point moment =
+        Point(entry.at[0], entry.at[1], entry.at[2]).cross(entry.coefficient * forces[row] * Point::Unit(entry.component));
+    for (int k = 0; contact >= 0 && k < 3; ++k) sums[static_cast<std::size_t>(3 * contact + k)] += moment[k];
+  }
+  problem.communicator().sum_in_place(sums);
+  return sums;
 }
 
 // How wide the surroundings of a point are: a force there may act somewhere within them.
@@ -66,26 +72,36 @@ double width_of(const contact::ContactNodeState& point, const Point& at, fem::Ki
   return thickness > 0 ? point.area / thickness : 0;
 }
 
-// The sum of the sizes of the forces at a contact's points, and what they could turn. Collective.
-std::pair<double, double> turning(std::span<const constraint::ContactNode> nodes,
-                                  std::span<const contact::ContactNodeState> states, int contact, fem::Kinematics kinematics,
-                                  const Communicator& comm)
+// Of each contact the sum of the sizes of the forces at its points, and what they could turn. Collective.
+std::vector<ContactMoment> turning(std::span<const constraint::ContactNode> nodes,
+                                   std::span<const contact::ContactNodeState> states, std::size_t contacts,
+                                   fem::Kinematics kinematics, const Communicator& comm)
 {
-  double widest = 0;
-  std::array<double, 4> sums{};  // size, size * place
+  std::vector<Found> widest(contacts, Found{0});
+  std::vector<double> sums(4 * contacts, 0.0);  // size, size * place
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (states[i].contact != contact) continue;
+    const auto c = static_cast<std::size_t>(states[i].contact);
     const double size = states[i].force_on_secondary.norm();
-    sums[0] += size;
-    if (size > 0) widest = std::max(widest, width_of(states[i], nodes[i].at, kinematics));
-    for (int c = 0; c < 3; ++c) sums[static_cast<std::size_t>(1 + c)] += size * nodes[i].at[c];
+    sums[4 * c] += size;
+    if (size > 0) widest[c].take(width_of(states[i], nodes[i].at, kinematics), nodes[i].at);
+    for (int k = 0; k < 3; ++k) sums[4 * c + 1 + static_cast<std::size_t>(k)] += size * nodes[i].at[k];
   }
   comm.sum_in_place(sums);
-  const Point centre = sums[0] > 0 ? Point(Point(sums[1], sums[2], sums[3]) / sums[0]) : Point::Zero();
-  double second = 0;  // size * distance^2 from there
-  for (std::size_t i = 0; i < states.size(); ++i)
-    if (states[i].contact == contact) second += states[i].force_on_secondary.norm() * (nodes[i].at - centre).squaredNorm();
-  return {sums[0], std::max(std::sqrt(sums[0] * comm.sum(second)), sums[0] * comm.max(widest))};
+  widest = largest_of_ranks(widest, comm);
+  std::vector<double> second(contacts, 0.0);  // size * distance^2 from their centre
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const auto c = static_cast<std::size_t>(states[i].contact);
+    const double* sum = &sums[4 * c];
+    const Point centre = sum[0] > 0 ? Point(Point(sum[1], sum[2], sum[3]) / sum[0]) : Point::Zero();
+    second[c] += states[i].force_on_secondary.norm() * (nodes[i].at - centre).squaredNorm();
+  }
+  comm.sum_in_place(second);
+  std::vector<ContactMoment> result(contacts);
+  for (std::size_t c = 0; c < contacts; ++c) {
+    result[c].sizes = sums[4 * c];
+    result[c].scale = std::max(std::sqrt(sums[4 * c] * second[c]), sums[4 * c] * widest[c].value);
+  }
+  return result;
 }
 
 Warning about(const contact::Pair& pair, const char* kind, std::string text, std::string cure, double value, double limit)
@@ -105,19 +121,13 @@ std::vector<ContactMoment> contact_moments(const feti::DualProblem& problem, con
                                            std::span<const contact::Pair> pairs,
                                            std::span<const contact::ContactNodeState> states)
 {
-  const auto& comm = problem.communicator();
-  const auto& nodes = problem.constraints().contacts.nodes;
-  std::vector<ContactMoment> result(pairs.size());
+  const auto lost = moments(problem, lambda, decomposition, pairs.size());
+  auto result = turning(problem.constraints().contacts.nodes, states, pairs.size(), kinematics, problem.communicator());
   for (std::size_t c = 0; c < pairs.size(); ++c) {
-    if (pairs[c].options.obstacle || contact::rotation_of(pairs[c].options)) continue;
-    const auto contact = static_cast<int>(c);
-    const Vector part = multipliers_of(problem, lambda, contact);
-    const Point mine =
-        moment(decomposition, problem.jump().apply_transpose(part), problem.dimension()) + moment_on_supports(problem, part);
-    std::array<double, 3> sum{mine[0], mine[1], mine[2]};
-    comm.sum_in_place(sum);
-    const auto [sizes, scale] = turning(nodes, states, contact, kinematics, comm);
-    result[c] = {std::hypot(sum[0], sum[1], sum[2]), scale, sizes};
+    if (pairs[c].options.obstacle || contact::rotation_of(pairs[c].options))
+      result[c] = {};
+    else
+      result[c].lost = std::hypot(lost[3 * c], lost[3 * c + 1], lost[3 * c + 2]);
   }
   return result;
 }
