@@ -42,6 +42,8 @@ mortise_regression(touches_in_a_node RANKS 1 STUDY_RANKS 2)
 mortise_regression(stands_on_corner RANKS 1 STUDY_RANKS 2)
 mortise_regression(few_bent_faces RANKS 1 STUDY_RANKS 2)
 mortise_regression(bond_in_corner RANKS 1 3 STUDY_RANKS 2)
+mortise_regression(four_bonded_blocks RANKS 1 2 3)
+mortise_regression(bonded_film RANKS 1 2)
 mortise_regression(soft_film RANKS 1 STUDY_RANKS 2 3)
 mortise_regression(soft_film VARIANT .thicker RANKS 1 2 STUDY_RANKS 3 EXPECTED cases/soft_film.thicker.expected.json
   SET "mesh.blocks.film.size=[20, 0.02]" "mesh.blocks.upper.origin=[0, 5.02]" "couplings.ram.point=[10, 10.02]"

@@ -58,9 +58,11 @@ class DirectSolver : public Solver {
       answer.radii.assign(radii.begin(), radii.end());
       return answer;
     }
-    auto solution = faces_->solve(right, radii, start, within_reach(goal, known), observer, nullptr);
-    if (!solution.converged && known && known->by_matrices) take_judged(right, radii, goal, *known->by_matrices, solution);
-    return solution;
+    const auto by_faces = [&](const std::optional<Solution>& from) {
+      return std::optional(faces_->solve(right, radii, from, within_reach(goal, known), observer, nullptr));
+    };
+    return *solved_by(
+        by_faces, [&](const Vector&) { return std::vector<double>(radii.begin(), radii.end()); }, right, start, goal, known);
   }
   std::optional<Solution> solve(const RightHandSide& right, const SlipLaw& law, const std::optional<Solution>& start,
                                 const Goal& goal, const Observer& observer, Foreknown* known) override
@@ -70,10 +72,11 @@ class DirectSolver : public Solver {
       if (!answer->slides) answer->radii = law.radii(&answer->x);
       return answer;
     }
-    auto solution = faces_->solve(right, law, start, within_reach(goal, known), observer, nullptr);
-    if (solution && !solution->converged && known && known->by_matrices)
-      take_judged(right, law.radii(&known->by_matrices->x), goal, *known->by_matrices, *solution);
-    return solution;
+    const auto by_faces = [&](const std::optional<Solution>& from) {
+      return faces_->solve(right, law, from, within_reach(goal, known), observer, nullptr);
+    };
+    return solved_by(
+        by_faces, [&](const Vector& x) { return law.radii(&x); }, right, start, goal, known);
   }
   ActiveSetPreconditioner* preconditioner() override { return matrices_.inverse.get(); }
 
@@ -168,7 +171,34 @@ class DirectSolver : public Solver {
     return {judged(problem, found, goal), exact};
   }
 
-  // Where products are too rough to show what the matrices found, it is judged in place of `solution`.
+  // By faces from `start`. Where products are too rough to show what the matrices found, it is judged in place of their last
+  // point; where it will not do, the other matrices have their turn. `radii_at` a point.
+  template <class Faces, class Radii>
+  std::optional<Solution> solved_by(const Faces& by_faces, const Radii& radii_at, const RightHandSide& right,
+                                    const std::optional<Solution>& start, const Goal& goal, Foreknown* known)
+  {
+    auto solution = by_faces(start);
+    const auto will_do = [&] { return !solution || solution->converged || !known || !known->by_matrices; };
+    const auto judge_matrices = [&] {
+      if (!will_do()) take_judged(right, radii_at(known->by_matrices->x), goal, *known->by_matrices, *solution);
+    };
+    judge_matrices();
+    if (will_do() || !goal.energy_norm || matrices_.instead_of_none || !has_others()) return solution;
+    const FeasibleSet set = programme_.set.with_radii(radii_at(known->by_matrices->x));
+    const Problem problem(programme_, right, set);
+    auto next = others_->solve(right, set);
+    if (!next.converged || !next.settled || !next.reaction) return solution;
+    take_others();
+    improve(problem, next, goal);
+    std::optional<Solution> from(Solution(next.x, next.x, next.nu));
+    from->hessian_norm = solution->hessian_norm;
+    known->by_matrices = std::move(next);
+    solution = by_faces(from);
+    judge_matrices();
+    return solution;
+  }
+
+  // In place of `solution`, if it will do.
   void take_judged(const RightHandSide& right, std::span<const double> radii, const Goal& goal,
                    const ExplicitProgramme::Result& found, Solution& solution)
   {
@@ -228,8 +258,7 @@ class DirectSolver : public Solver {
       return solution.projected_gradient > limits::Every::largest_residual
                  ? 0
                  : std::max(Limits::rounding_of_direct * energy_norm, goal.allowed_error(solution.x, solution.nu));
-    if (solution.projected_gradient <= goal.residual) return Limits::rounding_beside_residual * energy_norm;
-    return solution.projected_gradient <= Limits::rough_residual ? Limits::makes_up_for_residual * energy_norm : 0;
+    return solution.projected_gradient <= limits::Every::largest_residual ? Limits::makes_up_for_any_residual * energy_norm : 0;
   }
 
   // Whether x lies in Omega, with friction within its cones, and balances the loads.

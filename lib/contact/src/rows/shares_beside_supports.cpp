@@ -116,15 +116,21 @@ void SharesBesideSupports::find_strays(CutFaces& faces, std::span<const char> ke
   const auto nobody = [&](std::size_t f, const PieceStore::View& piece, const Point& axis) {
     return std::ranges::none_of(takers(f, piece, axis, kept, faces), [](char takes) { return takes != 0; });
   };
+  // What belongs to other bonds is nobody's here.
+  const auto has_rows = [&](std::size_t f, const PieceStore::View& piece) {
+    for (Eigen::Index k = 0; k < piece.covered.size(); ++k)
+      if (piece.covered[k] > 0 && kept[faces.place_of(f, piece, k)]) return true;
+    return false;
+  };
   for (const std::size_t f : faces.round())
     for (const Point& axis : axes_of(f, faces))
       for (const std::size_t i : faces.pieces(f)) {
         const auto piece = faces.piece(i);
         const bool of_nodes = piece.point_facet.empty();
         if (!(piece.covered.sum() > 0) || (of_nodes && !nobody(f, piece, axis))) continue;
-        if (of_nodes && part_that_moves(piece, axis, prescribed_on_primary) < half)
+        if (of_nodes && has_rows(f, piece) && part_that_moves(piece, axis, prescribed_on_primary) < half)
           if (auto beside = takers_beside(f, axis, kept, faces); !beside.empty()) {
-            strays_.push_back({f, i, axis, std::move(beside)});
+            strays_.push_back({f, i, axis, std::move(beside), terms_of_constant(f, piece)});
             continue;
           }
         for (const Local p : faces.surface_nodes_of(f)) kept_shares.emplace_back(static_cast<std::size_t>(p), axis);
@@ -168,31 +174,45 @@ SharesBesideSupports::Share& SharesBesideSupports::share_of(std::size_t place, c
   return found != shares.end() ? *found : *shares.insert(shares.end(), {axis, {}});
 }
 
+// Of the constant 1 on a piece whose integrals are not yet functions of places.
+std::vector<Term> SharesBesideSupports::terms_of_constant(std::size_t face, const PieceStore::View& piece) const
+{
+  std::vector<Term> result;
+  const auto nodes = secondary_->faces[face];
+  for (std::size_t j = 0; j < nodes.size(); ++j)
+    result.push_back({nodes[j], false, piece.mass.col(static_cast<Eigen::Index>(j)).sum()});
+  for (std::size_t j = 0; j < piece.nodes.size(); ++j)
+    result.push_back({piece.nodes[j], true, -piece.opposite.col(static_cast<Eigen::Index>(j)).sum()});
+  return result;
+}
+
 void SharesBesideSupports::take_functions(CutFaces& faces)
 {
-  // What functions, of which the integrals are given, bring to a share.
-  const auto add = [&](Share& share, std::size_t face, const PieceStore::View& piece, const auto& mass, const auto& opposite) {
-    const auto nodes = secondary_->faces[face];
-    const auto term = [&](Local node, bool on_primary, double value) {
-      if (value != 0) share.terms.push_back({node, on_primary, value});
-    };
-    for (std::size_t j = 0; j < nodes.size(); ++j) term(nodes[j], false, mass(static_cast<Eigen::Index>(j)));
-    for (std::size_t j = 0; j < piece.nodes.size(); ++j) term(piece.nodes[j], true, opposite(static_cast<Eigen::Index>(j)));
-  };
   for (const auto& other : others_) {
     const auto now = faces.piece(other.piece), then = other_[other.copy];
-    for (Eigen::Index k = 0; k < then.covered.size(); ++k)
-      if (then.covered[k] > 0)  // else of nobody who takes
-        add(share_of(faces.place_of(other.face, now, k), other.axis), other.face, now, then.mass.row(k) - now.mass.row(k),
-            then.opposite.row(k) - now.opposite.row(k));
+    const auto nodes = secondary_->faces[other.face];
+    for (Eigen::Index k = 0; k < then.covered.size(); ++k) {
+      if (!(then.covered[k] > 0)) continue;  // of nobody who takes
+      auto& share = share_of(faces.place_of(other.face, now, k), other.axis);
+      const auto add = [&](Local node, bool on_primary, double value) {
+        if (value != 0) share.terms.push_back({node, on_primary, value});
+      };
+      for (std::size_t j = 0; j < nodes.size(); ++j) {
+        const auto column = static_cast<Eigen::Index>(j);
+        add(nodes[j], false, then.mass(k, column) - now.mass(k, column));
+      }
+      for (std::size_t j = 0; j < now.nodes.size(); ++j) {
+        const auto column = static_cast<Eigen::Index>(j);
+        add(now.nodes[j], true, then.opposite(k, column) - now.opposite(k, column));
+      }
+    }
   }
-  for (const auto& stray : strays_) {
-    const auto piece = faces.piece(stray.piece);
-    const double part = 1.0 / static_cast<double>(stray.takers.size());
+  for (const auto& stray : strays_)
     for (const std::size_t place : stray.takers)
-      add(share_of(place, stray.axis), stray.face, piece, part * piece.mass.colwise().sum(),
-          part * piece.opposite.colwise().sum());
-  }
+      for (Term term : stray.constant) {
+        term.value /= static_cast<double>(stray.takers.size());
+        share_of(place, stray.axis).terms.push_back(term);
+      }
   for (auto& [place, shares] : shares_)
     for (auto& share : shares) merge_terms(share.terms);
 }

@@ -55,11 +55,12 @@ class SharesBesideSupports {
     std::size_t face, piece, copy;  // in other_
     Point axis;
   };
-  // A piece along an axis of which nobody has a function, and who takes the constant.
+  // A piece along an axis of which nobody has a function, who takes the constant, and the integrals of that.
   struct Stray {
     std::size_t face, piece;
     Point axis;
     std::vector<std::size_t> takers;
+    std::vector<Term> constant;
   };
   // Integrals of psi^a - psi, as terms.
   struct Share {
@@ -72,6 +73,7 @@ class SharesBesideSupports {
                                          const CutFaces& faces) const;
   Few<char, most_functions> takers(std::size_t face, const PieceStore::View& piece, const Point& axis, std::span<const char> kept,
                                    const CutFaces& faces) const;
+  std::vector<Term> terms_of_constant(std::size_t face, const PieceStore::View& piece) const;
   Share& share_of(std::size_t place, const Point& axis);
 
   const Side* secondary_ = nullptr;
