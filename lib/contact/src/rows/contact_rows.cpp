@@ -99,14 +99,16 @@ class ContactRows {
   {
     const bool alone = options().obstacle || options().cyclic || s_.supports.empty() || s_.primary_supports.empty();
     if (!bonded() || alone || !s_.discretization->others_take_over()) return {};
-    const auto prescribed_opposite = [&](std::size_t p, const Point& axis) {
-      return !matches_[p] && s_.rays.meets(p) && opposite_supports_.prescribe(s_.rays.meet(p), axis);
-    };
-    const auto prescribed_on_primary = [&](Local node, const Point& axis) {
-      return opposite_supports_.prescribe_node(node, axis);
-    };
-    return {s_.secondary,          s_.nodes,    s_.faces, s_.supports, chosen_.kept, prescribed_opposite,
-            prescribed_on_primary, s_.dimension};
+    const SharesBesideSupports::OnPrimary on_primary{
+        [&](std::size_t p, const Point& axis) {
+          return !matches_[p] && s_.rays.meets(p) && opposite_supports_.prescribe(s_.rays.meet(p), axis);
+        },
+        [&](std::size_t p, const Point& at, const Point& axis) {
+          const auto met = s_.rays.met_from(p, at, s_.nodes.all[p].normal);
+          return std::isfinite(met.gap) && opposite_supports_.prescribe(met, axis);
+        },
+        [&](Local node, const Point& axis) { return opposite_supports_.prescribe_node(node, axis); }};
+    return {s_.secondary, s_.nodes, s_.faces, s_.supports, chosen_.kept, on_primary, s_.dimension};
   }
 
   std::optional<BondedNodes> bonded_nodes(const OthersNodes& others)

@@ -15,14 +15,12 @@ bool same(const Point& a, const Point& b)
   return a.cross(b).norm() < alike;
 }
 
-// The directions in the surface along which supports hold a surface node and what lies opposite.
-template <class PrescribedOpposite>
-Few<Point, 3> prescribed_on_both_sides(const SurfaceNode& node, Global id, std::size_t p, const SupportedNodes& supports,
-                                       const PrescribedOpposite& prescribed_opposite, int dimension)
+// The directions in the surface along which supports hold a surface node.
+Few<Point, 3> prescribed_at(const SurfaceNode& node, Global id, const SupportedNodes& supports, int dimension)
 {
   Few<Point, 3> result;
   const auto take = [&](const Point& axis) {
-    if (result.size() < 3 && std::abs(axis.dot(node.normal)) < in_surface && prescribed_opposite(p, axis)) result.push_back(axis);
+    if (result.size() < 3 && std::abs(axis.dot(node.normal)) < in_surface) result.push_back(axis);
   };
   for (int c = 0; c < dimension; ++c)
     if (supports.find(id, c)) take(Point::Unit(c));
@@ -30,9 +28,17 @@ Few<Point, 3> prescribed_on_both_sides(const SurfaceNode& node, Global id, std::
   return result;
 }
 
+template <class Keep>
+void leave_those(Few<Point, 3>& axes, const Keep& keep)
+{
+  Few<Point, 3> rest;
+  for (const Point& axis : axes)
+    if (keep(axis)) rest.push_back(axis);
+  axes = rest;
+}
+
 // The part of what lies opposite a function of a piece that supports leave free along a direction, at the least.
-template <class PrescribedOnPrimary>
-double part_that_moves(const PieceStore::View& piece, const Point& axis, const PrescribedOnPrimary& prescribed_on_primary)
+double part_that_moves(const PieceStore::View& piece, const Point& axis, const SharesBesideSupports::OnPrimary& on_primary)
 {
   double least = 1;
   for (Eigen::Index k = 0; k < piece.covered.size(); ++k) {
@@ -40,7 +46,7 @@ double part_that_moves(const PieceStore::View& piece, const Point& axis, const P
     for (std::size_t j = 0; j < piece.nodes.size(); ++j) {
       const double part = piece.opposite(k, static_cast<Eigen::Index>(j));
       all += part;
-      if (!prescribed_on_primary(piece.nodes[j], axis)) free += part;
+      if (!on_primary.at_node(piece.nodes[j], axis)) free += part;
     }
     if (all > 0) least = std::min(least, free / all);
   }
@@ -51,15 +57,12 @@ double part_that_moves(const PieceStore::View& piece, const Point& axis, const P
 
 SharesBesideSupports::SharesBesideSupports(const Side& secondary, const SurfaceNodes& nodes, CutFaces& faces,
                                            const SupportedNodes& supports, std::span<const char> kept,
-                                           const PrescribedOpposite& prescribed_opposite,
-                                           const PrescribedOnPrimary& prescribed_on_primary, int dimension)
+                                           const OnPrimary& on_primary, int dimension)
     : secondary_(&secondary), given_(nodes.all.size())
 {
   if (supports.empty()) return;
-  for (std::size_t p = 0; p < given_.size(); ++p)
-    given_[p] = prescribed_on_both_sides(nodes.all[p], secondary.node_id[static_cast<std::size_t>(nodes.all[p].node)], p,
-                                         supports, prescribed_opposite, dimension);
-  find_strays(faces, kept, prescribed_on_primary);
+  find_given(nodes, faces, supports, on_primary, dimension);
+  find_strays(faces, kept, on_primary);
   for (const std::size_t f : faces.near())
     for (const Point& axis : axes_of(f, faces))
       for (const std::size_t i : faces.pieces(f)) {
@@ -72,6 +75,48 @@ SharesBesideSupports::SharesBesideSupports(const Side& secondary, const SurfaceN
       }
 }
 
+// The axes along which supports hold both sides wherever functions of a node stand: at the node, or, on faces that the primary
+// side's border cuts, at a point inside.
+void SharesBesideSupports::find_given(const SurfaceNodes& nodes, CutFaces& faces, const SupportedNodes& supports,
+                                      const OnPrimary& on_primary, int dimension)
+{
+  const auto id_of = [&](Local node) { return secondary_->node_id[static_cast<std::size_t>(node)]; };
+  std::vector<Axes> at_nodes(nodes.all.size());
+  for (std::size_t p = 0; p < given_.size(); ++p) {
+    at_nodes[p] = given_[p] = prescribed_at(nodes.all[p], id_of(nodes.all[p].node), supports, dimension);
+    leave_those(at_nodes[p], [&](const Point& axis) { return on_primary.opposite(p, axis); });
+  }
+  const auto at_point = [&](std::size_t p, const PieceStore::View& piece, Eigen::Index k, const Point& axis) {
+    constexpr double rounding = 1e-9;
+    const auto corners = secondary_->facets[static_cast<std::size_t>(piece.point_facet[static_cast<std::size_t>(k)])];
+    Point at = Point::Zero();
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      const double shape = piece.points(k, static_cast<Eigen::Index>(c));
+      if (std::abs(shape) > rounding && !supports.holds(id_of(corners[c]), axis, dimension)) return false;
+      at += shape * secondary_->points[static_cast<std::size_t>(corners[c])];
+    }
+    return on_primary.opposite_at(p, at, axis);
+  };
+  std::vector<char> has_functions(given_.size(), 0);
+  for (const std::size_t f : faces.round())
+    for (const std::size_t i : faces.pieces(f)) {
+      const auto piece = faces.piece(i);
+      for (Eigen::Index k = 0; k < piece.covered.size(); ++k) {
+        const auto p = faces.surface_node_of(f, piece, k);
+        if (!(piece.covered[k] > 0)) continue;
+        has_functions[p] = 1;
+        if (piece.point_facet.empty() || piece.point_facet[static_cast<std::size_t>(k)] < 0)
+          leave_those(given_[p], [&](const Point& axis) {
+            return std::ranges::any_of(at_nodes[p], [&](const Point& held) { return same(axis, held); });
+          });
+        else
+          leave_those(given_[p], [&](const Point& axis) { return at_point(p, piece, k, axis); });
+      }
+    }
+  for (std::size_t p = 0; p < given_.size(); ++p)
+    if (!has_functions[p]) given_[p] = {};
+}
+
 // Of the functions of a piece, whether their places take over along an axis.
 Few<char, most_functions> SharesBesideSupports::takers(std::size_t face, const PieceStore::View& piece, const Point& axis,
                                                        std::span<const char> kept, const CutFaces& faces) const
@@ -79,7 +124,7 @@ Few<char, most_functions> SharesBesideSupports::takers(std::size_t face, const P
   Few<char, most_functions> result;
   for (Eigen::Index k = 0; k < piece.covered.size(); ++k) {
     const std::size_t place = faces.place_of(face, piece, k);
-    result.push_back(piece.covered[k] > 0 && kept[place] && (faces.is_corner(place) || !gives(place, axis)));
+    result.push_back(piece.covered[k] > 0 && kept[place] && !gives(faces.surface_node(place), axis));
   }
   return result;
 }
@@ -108,8 +153,7 @@ std::vector<std::size_t> SharesBesideSupports::takers_beside(std::size_t face, c
 }
 
 // Of pieces that have nobody to take over along an axis. A node that keeps its share there keeps as well what it has elsewhere.
-void SharesBesideSupports::find_strays(CutFaces& faces, std::span<const char> kept,
-                                       const PrescribedOnPrimary& prescribed_on_primary)
+void SharesBesideSupports::find_strays(CutFaces& faces, std::span<const char> kept, const OnPrimary& on_primary)
 {
   constexpr double half = 0.5;  // of what lies opposite, see ContactRows::freedom_of_primary()
   std::vector<std::pair<std::size_t, Point>> kept_shares;
@@ -126,21 +170,15 @@ void SharesBesideSupports::find_strays(CutFaces& faces, std::span<const char> ke
     for (const Point& axis : axes_of(f, faces))
       for (const std::size_t i : faces.pieces(f)) {
         const auto piece = faces.piece(i);
-        const bool of_nodes = piece.point_facet.empty();
-        if (!(piece.covered.sum() > 0) || (of_nodes && !nobody(f, piece, axis))) continue;
-        if (of_nodes && has_rows(f, piece) && part_that_moves(piece, axis, prescribed_on_primary) < half)
+        if (!(piece.covered.sum() > 0) || !nobody(f, piece, axis)) continue;
+        if (has_rows(f, piece) && part_that_moves(piece, axis, on_primary) < half)
           if (auto beside = takers_beside(f, axis, kept, faces); !beside.empty()) {
             strays_.push_back({f, i, axis, std::move(beside), terms_of_constant(f, piece)});
             continue;
           }
         for (const Local p : faces.surface_nodes_of(f)) kept_shares.emplace_back(static_cast<std::size_t>(p), axis);
       }
-  for (const auto& [p, axis] : kept_shares) {
-    Axes rest;
-    for (const Point& given : given_[p])
-      if (!same(given, axis)) rest.push_back(given);
-    given_[p] = rest;
-  }
+  for (const auto& [p, axis] : kept_shares) leave_those(given_[p], [&](const Point& given) { return !same(given, axis); });
   std::erase_if(strays_, [&](const Stray& stray) { return !nobody(stray.face, faces.piece(stray.piece), stray.axis); });
 }
 

@@ -29,14 +29,16 @@ class SharesBesideSupports {
  public:
   /// Nothing is shared.
   SharesBesideSupports() = default;
-  /// Whether supports hold what lies opposite a surface node along a direction.
-  using PrescribedOpposite = std::function<bool(std::size_t p, const Point& axis)>;
-  /// And a node of the primary side.
-  using PrescribedOnPrimary = std::function<bool(Local node, const Point& axis)>;
+  /// What supports hold of the primary side along a direction.
+  struct OnPrimary {
+    std::function<bool(std::size_t p, const Point& axis)> opposite;  ///< of what lies opposite a surface node,
+    /// opposite a point where a function stands that belongs to one
+    std::function<bool(std::size_t p, const Point& at, const Point& axis)> opposite_at;
+    std::function<bool(Local node, const Point& axis)> at_node;  ///< and at a node
+  };
   /// `faces` with their integrals, which become functions of the places that are `kept` later.
   SharesBesideSupports(const Side& secondary, const SurfaceNodes& nodes, CutFaces& faces, const SupportedNodes& supports,
-                       std::span<const char> kept, const PrescribedOpposite& prescribed_opposite,
-                       const PrescribedOnPrimary& prescribed_on_primary, int dimension);
+                       std::span<const char> kept, const OnPrimary& on_primary, int dimension);
 
   /// Whether a surface node leaves its share along a direction to others.
   bool gives(std::size_t p, const Point& direction) const;
@@ -68,7 +70,9 @@ class SharesBesideSupports {
     std::vector<Term> terms;
   };
   Axes axes_of(std::size_t face, const CutFaces& faces) const;
-  void find_strays(CutFaces& faces, std::span<const char> kept, const PrescribedOnPrimary& prescribed_on_primary);
+  void find_given(const SurfaceNodes& nodes, CutFaces& faces, const SupportedNodes& supports, const OnPrimary& on_primary,
+                  int dimension);
+  void find_strays(CutFaces& faces, std::span<const char> kept, const OnPrimary& on_primary);
   std::vector<std::size_t> takers_beside(std::size_t face, const Point& axis, std::span<const char> kept,
                                          const CutFaces& faces) const;
   Few<char, most_functions> takers(std::size_t face, const PieceStore::View& piece, const Point& axis, std::span<const char> kept,
