@@ -1,5 +1,6 @@
 #include "surface/arc_normals.hpp"
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -9,11 +10,20 @@ namespace {
 
 // Of the angle between two facets, the least that tells; and of what is told, the most by which the two sides may differ.
 constexpr double tells = 0.1, agree = 0.1;
+// Of the jump of the curvature, how much it may change on either side: along a smooth curve that is half of it.
+constexpr double constant = 0.25;
 
 // From the origin towards u, along the circle through u and v.
 Point tangent(const Point& u, const Point& v)
 {
   return (u / u.squaredNorm() - v / v.squaredNorm()).normalized();
+}
+
+// Of the circle through three points of the plane, signed.
+double curvature(const Point& a, const Point& b, const Point& c)
+{
+  const Point first = b - a, second = c - b;
+  return 2 * first.cross(second)[2] / (first.norm() * second.norm() * (c - a).norm());
 }
 
 }  // namespace
@@ -47,6 +57,12 @@ void take_normals_between_arcs(const Side& side, SurfaceNodes& surface_nodes)
     const Point mean = (back + forth).normalized();
     const double turn = (a.normalized() + b.normalized()).norm(), jump = (across - mean).norm();
     if (!(jump > tells * turn) || !((back - forth).norm() < agree * jump)) continue;
+    const double here = curvature(at(before), at(first), at(p)), there = curvature(at(p), at(last), at(after));
+    const auto changes = [&](double at_node, Local next, Local last_but_one, Local last_one) {
+      return next >= 0 &&
+             std::abs(curvature(at(next), at(last_one), at(last_but_one)) - at_node) > constant * std::abs(there - here);
+    };
+    if (changes(here, beyond(first, before), first, before) || changes(-there, beyond(last, after), last, after)) continue;
     Point& normal = surface_nodes.all[n].normal;
     normal = (normal - normal.dot(mean) * mean).normalized();
   }
