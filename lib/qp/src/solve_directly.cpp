@@ -141,7 +141,7 @@ class DirectSolver : public Solver {
     const double error = judge(problem, found).error;
     if (!(error > Limits::much * goal.energy_norm(found.x, found.nu)) || !has_others()) return {};
     auto next = others_->solve(problem.right, problem.set);
-    if (!next.converged || !next.settled) return {};
+    if (!next.converged || !next.settled || !next.reaction) return {};
     take_others();
     accepted = improve(problem, next, goal).accepted;
     if (accepted || judge(problem, next).error < error)

@@ -89,11 +89,11 @@ struct Direct {
   /// The same where a residual is asked for that rounding of products keeps: a hundredth of what Every::least_credible lets pass.
   static constexpr double makes_up_for_residual = 1e-6;
   static constexpr double rough_residual = 1e-4;  ///< that may be left then
-  /// And of what matrices found where products do not end at all, as for soft films between stiff bodies: multipliers have no more
-  /// figures. post::unreached_tolerance() tells it.
+  /// And of what matrices found where products do not end at all, as for soft films between stiff bodies: multipliers have no
+  /// more figures. post::unreached_tolerance() tells it.
   static constexpr double makes_up_for_any_residual = 1e-3;
-  static constexpr double much = 1e-3;  ///< of the energy norm: an error beyond which other matrices are tried
-  static constexpr double outside = 1e-6;         ///< of x: part of it that may lie outside of Omega, or not balance the loads
+  static constexpr double much = 1e-3;     ///< of the energy norm: an error beyond which other matrices are tried
+  static constexpr double outside = 1e-6;  ///< of x: part of it that may lie outside of Omega, or not balance the loads
 
   // Corrections of what the matrices differ from A by, as rows that depend on each other are given a compliance.
   static constexpr int most_corrections = 4;      ///< as long as each leaves
