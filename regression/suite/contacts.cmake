@@ -232,6 +232,17 @@ foreach(way 1e-6 direct)
                      SET mesh.blocks.a.size=[400,400,1] mesh.blocks.b.size=[400,400,1] mesh.blocks.a.cells=[40,40,2] mesh.blocks.b.cells=[32,32,2]
                          decomposition.unknowns_per_subdomain=4000 ${more})
 endforeach()
+# Cells of second order, whose middle nodes bend plates by what rounding makes of large forces.
+foreach(element hex20 hex27 tet10 prism15)
+  mortise_regression(pressed_plates VARIANT .400.${element} DIRECTORY hard/decks EXPECTED cases/pressed_plates.400.order2.expected.json
+                     RANKS 1 STUDY_RANKS 2 3
+                     SET mesh.blocks.a.size=[400,400,1] mesh.blocks.b.size=[400,400,1] mesh.blocks.a.cells=[10,10,2] mesh.blocks.b.cells=[8,8,2]
+                         mesh.blocks.a.element=${element} mesh.blocks.b.element=${element} decomposition.unknowns_per_subdomain=4000)
+endforeach()
+mortise_regression(pressed_plates VARIANT .400.hex20.1e-8 DIRECTORY hard/decks EXPECTED cases/pressed_plates.400.order2.expected.json
+                   RANKS 1 2
+                   SET mesh.blocks.a.size=[400,400,1] mesh.blocks.b.size=[400,400,1] mesh.blocks.a.cells=[6,6,2] mesh.blocks.b.cells=[5,5,2]
+                       mesh.blocks.a.element=hex20 mesh.blocks.b.element=hex20 solver.tolerance=1e-8)
 foreach(width 300 1000)
   mortise_regression(pressed_plates VARIANT .${width} DIRECTORY hard/decks EXPECTED cases/pressed_plates.${width}.expected.json RANKS 1
                      SET mesh.blocks.a.size=[${width},${width},1] mesh.blocks.b.size=[${width},${width},1] solver.tolerance=1e-8)

@@ -33,7 +33,10 @@ DualSolver::DualSolver(std::shared_ptr<const feti::DualSystem> system, std::vect
       from_direct_(qp::solver_kind(solver.algorithm).whole_bodies),
       preconditioner_(system_->make_preconditioner()),
       product_(system_->hessian()),
-      hessian_(product_, 0),
+      hessian_(product_, 0,
+               [this](const Vector& x, const qp::RightHandSide& right, Vector& gradient) {
+                 system_->gradient(product_, x, right, gradient);
+               }),
       budget_(hessian_, solver.max_multiplications.value, qp::solver_kind(solver.algorithm).steady),
       omega_(friction::with_coefficients(*system_, laws_)),
       algorithm_(qp::solver_kind(solver.algorithm)

@@ -214,8 +214,8 @@ feti::DualSolution solution_of(const Record& record, const feti::DualProblem& pr
     forces[i] = multipliers[static_cast<std::size_t>(rows[static_cast<Teuchos::Ordinal>(i)])];
   const Vector x = problem.multipliers(forces);
   const auto right = problem.right_hand_side();
-  Vector gradient(right->b, Teuchos::Copy);
-  hessian.apply(x, gradient, Teuchos::NO_TRANS, 1, -1);
+  Vector gradient(right->b.getMap());
+  problem.system().gradient(hessian, x, *right, gradient);
   const auto print = fingerprint(x, gradient, right->b);
   if (differ(print.linear, record.counts[figure::linear], print.linear_scale) ||
       differ(print.energy, record.counts[figure::energy], print.energy_scale))

@@ -10,10 +10,27 @@ std::vector<Eigen::VectorXd> DualOperator::multiply(const Vector& x, Vector& y, 
   auto forces = jump_.apply_transpose(x);
   clusters_.apply_inverse(forces, products_ == Products::rounded);
   Vector jumps = jump_.apply(forces);
-  view(jumps) += jump_.compliance().cwiseProduct(view(x));
-  if (springs_) springs_->add_compliance(1, x, jumps);
+  add_compliance(x, jumps);
   y.update(alpha, jumps, beta);
   return forces;
+}
+
+// y += S x, what rows and springs give way by themselves.
+void DualOperator::add_compliance(const Vector& x, Vector& y) const
+{
+  view(y) += jump_.compliance().cwiseProduct(view(x));
+  if (springs_) springs_->add_compliance(1, x, y);
+}
+
+void DualOperator::gradient(const Vector& x, const qp::RightHandSide& right, Vector& gradient) const
+{
+  const auto scope = timers_.scope("multiplication");
+  auto forces = jump_.apply_transpose(x);
+  for (std::size_t s = 0; s < forces.size(); ++s) forces[s] -= right.f[s];
+  clusters_.apply_inverse(forces, products_ == Products::rounded);
+  gradient = jump_.apply(forces);
+  view(gradient) += right.c;
+  add_compliance(x, gradient);
 }
 
 void DualOperator::apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp, Scalar alpha, Scalar beta) const

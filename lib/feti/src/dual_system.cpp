@@ -34,8 +34,13 @@ DualSystem::DualSystem(const partition::Decomposition& decomposition, const part
                        Products products)
     : decomposition_(decomposition), subdomains_(subdomains), options_(options), comm_(context.comm), timers_(context.timers)
 {
-  for (const auto& subdomain : clusters().subdomains()) rounding_ = std::max(rounding_, subdomain->rounding());
+  double inaccuracy = 0;
+  for (const auto& subdomain : clusters().subdomains()) {
+    rounding_ = std::max(rounding_, subdomain->rounding());
+    inaccuracy = std::max(inaccuracy, subdomain->inaccuracy());
+  }
   rounding_ = comm_.max(rounding_);
+  slender_ = comm_.max(inaccuracy) > inaccurate;
   const auto rows = [&](std::span<const SubdomainRow> gauges) {
     return std::make_unique<const JumpOperator>(decomposition, directory, interface, constraints.prescribed,
                                                 constraints.skew_supports, constraints.contacts, gauges, comm_,
@@ -49,6 +54,13 @@ DualSystem::DualSystem(const partition::Decomposition& decomposition, const part
   for (std::size_t i = 0; i < constraints.prescribed.size(); ++i)
     if (constraints.prescribed[i].unknown) unknown_components_.push_back(jump_->ranges().dirichlet + static_cast<Local>(i));
   make_set(constraints.contacts);
+}
+
+void DualSystem::gradient(const Operator& product, const Vector& x, const qp::RightHandSide& right, Vector& gradient) const
+{
+  if (slender_) return hessian_->gradient(x, right, gradient);
+  product.apply(x, gradient);
+  gradient.update(-1, right.b, 1);
 }
 
 // B with the rows of gauges, and G.

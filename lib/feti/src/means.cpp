@@ -1,6 +1,5 @@
 #include "feti/means.hpp"
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -36,20 +35,12 @@ qp::ExplicitProgramme dense_programme(const DualSystem& system)
   return {matrices, solve, go_on, matrices->differs()};
 }
 
-// The largest of the subdomains. Collective.
-double inaccuracy(const DualSystem& system)
-{
-  double result = 0;
-  for (const auto& subdomain : system.clusters().subdomains()) result = std::max(result, subdomain->inaccuracy());
-  return system.communicator().max(result);
-}
-
 }  // namespace
 
 qp::Means means_of(const DualSystem& system, qp::ActiveSetPreconditioner* preconditioner, qp::Budget& budget)
 {
   const auto make_explicit = [&system] {
-    const bool slender = inaccuracy(system) > inaccurate;
+    const bool slender = system.slender();
     const auto turn = SparseProblem::turn(system, slender);
     if (turn == SparseProblem::Turn::alone) return sparse_programme(system, slender);
     if (turn == SparseProblem::Turn::first) {

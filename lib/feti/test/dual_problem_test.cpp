@@ -207,6 +207,14 @@ TEST(DualProblem, SpringsAreStiffnessOfTheWhole)
                      expected.segment<3>(3 * cube.decomposition.subdomains[s].mesh.node_id[n]))
                         .norm(),
                     1e-6 * expected.norm());
+      // F x - d at once is what products and d make of it.
+      const auto right = problem.right_hand_side();
+      Vector parts(right->b.getMap()), at_once(right->b.getMap());
+      problem.system().gradient(problem.hessian(), solution.x, *right, parts);
+      problem.system().hessian().gradient(solution.x, *right, at_once);
+      EXPECT_GT(parts.norm2(), 0);
+      parts.update(-1, at_once, 1);
+      EXPECT_LT(parts.norm2(), 1e-10 * right->b.norm2());
       // The energy of a residual is at least that of the error behind it.
       Vector x(problem.jump().rows()), r(x.getMap());
       for (Local i = 0; i < static_cast<Local>(x.getLocalLength()); ++i)

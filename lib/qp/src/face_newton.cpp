@@ -74,7 +74,7 @@ Solution FaceNewton::solve(const RightHandSide& right, std::span<const double> r
   if (start && start->nu.size() == problem.equality.size()) run.nu = start->nu * (step_length / norm_);
   auto& [z, g, y, gy] = run.state;
   z.assign(feasible.point);
-  evaluate(right.b, z, g);
+  programme_.hessian.gradient(z, right, g);
   run.energy = energy_of(right.b, z, g);
   y.assign(z);
   gy.assign(g);
@@ -82,7 +82,7 @@ Solution FaceNewton::solve(const RightHandSide& right, std::span<const double> r
     Trial trial = project_step(run);
     if (!trial.next.found)
       return infeasible(std::move(run.result), trial.next);  // bounds leave no point, for a start there was one
-    evaluate(right.b, trial);
+    evaluate(right, trial);
     improve_soft_start(run, trial);
     safeguard(run, trial);
     Judged judged = draw_back(run, trial);
@@ -232,17 +232,11 @@ Solution FaceNewton::solution_of(Run run) const
   return std::move(result);
 }
 
-// A x - b. One product.
-void FaceNewton::evaluate(const Vector& b, const Vector& x, Vector& gradient) const
+// One product.
+void FaceNewton::evaluate(const RightHandSide& right, Trial& trial) const
 {
-  programme_.hessian.apply(x, gradient);
-  gradient.update(-1, b, 1);
-}
-
-void FaceNewton::evaluate(const Vector& b, Trial& trial) const
-{
-  evaluate(b, trial.next.point, trial.gradient);
-  trial.energy = energy_of(b, trial.next.point, trial.gradient);
+  programme_.hessian.gradient(trial.next.point, right, trial.gradient);
+  trial.energy = energy_of(right.b, trial.next.point, trial.gradient);
 }
 
 void FaceNewton::report(const Run& run, const char* what, bool outer) const

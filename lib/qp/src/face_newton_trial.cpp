@@ -65,7 +65,7 @@ void FaceNewton::improve_soft_start(Run& run, Trial& trial)
   to.update(-trial.step, g, 1);
   if (Projection onward = project(run.problem, to); onward.found) {
     trial.next = std::move(onward);
-    evaluate(run.problem.right.b, trial);
+    evaluate(run.problem.right, trial);
   }
 }
 
@@ -95,7 +95,7 @@ bool FaceNewton::improve_start(const Problem& problem, State& state, double ener
     trial.scale(step);
     const Projection next = project(problem, trial);
     if (!next.found) break;
-    evaluate(b, next.point, gy);
+    programme_.hessian.gradient(next.point, problem.right, gy);
     const double next_energy = energy_of(b, next.point, gy);
     if (!(next_energy < energy)) break;
     z.assign(next.point);
@@ -122,7 +122,7 @@ void FaceNewton::safeguard(Run& run, Trial& trial)
     to.update(1 - part, z, part, y, 0);
     to.update(-trial.step * (1 - part), g, -trial.step * part, gy, 1);
     trial.next = project(run.problem, to, Eigen::VectorXd(run.nu * (trial.step * norm_ / step_length)));
-    evaluate(run.problem.right.b, trial);
+    evaluate(run.problem.right, trial);
     ++run.result.safeguards;
     if (part == 0) break;
   }
@@ -157,7 +157,7 @@ FaceNewton::Judged FaceNewton::draw_back(Run& run, Trial& trial)
     if (!next.next.found) break;
     next.part_of_way = part;
     trial = std::move(next);
-    evaluate(run.problem.right.b, trial);
+    evaluate(run.problem.right, trial);
     judged = judge(run, trial);
     ++run.result.safeguards;
   }

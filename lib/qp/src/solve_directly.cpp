@@ -217,8 +217,7 @@ class DirectSolver : public Solver {
   Solution judge(const Problem& problem, const ExplicitProgramme::Result& found)
   {
     Solution result(found.x, found.x, found.nu);
-    problem.hessian.apply(found.x, result.gradient);
-    result.gradient.update(-1, problem.right.b, 1);
+    problem.hessian.gradient(found.x, problem.right, result.gradient);
     Vector defect(result.gradient, Teuchos::Copy), error(defect.getMap());
     defect.update(-1, *found.reaction, 1);
     problem.equality.add_transpose(1, found.nu, defect);
@@ -287,8 +286,8 @@ class DirectSolver : public Solver {
     for (int step = 0; !problem.hessian.exhausted(); ++step) {
       const Eigen::VectorXd lacking = problem.right.e - equality.apply(found.x);
       equality.add_transpose(1, equality.solve(lacking), found.x);
-      problem.hessian.apply(found.x, defect);
-      defect.update(-1, problem.right.b, -1, *found.reaction, 1);
+      problem.hessian.gradient(found.x, problem.right, defect);
+      defect.update(-1, *found.reaction, 1);
       equality.add_transpose(1, found.nu, defect);
       Vector felt(defect, Teuchos::Copy);
       equality.project(felt);

@@ -247,6 +247,39 @@ TEST(DirectSolver, EndsWhereRoundingKeepsTheResidual)
   }
 }
 
+// Where A x and b lose what their difference has, who makes that at once tells how good a solution by matrices is.
+TEST(DirectSolver, KnowsItsDefectFromWhoMakesItAtOnce)
+{
+  for (const bool at_once : {false, true}) {
+    Setting setting;
+    auto& programme = setting.programme;
+    const RoughOperator rough(programme.a, 1e-2);
+    const auto gradient = [&](const Vector& x, const RightHandSide& right, Vector& result) {
+      result.assign(right.b);
+      programme.a.apply(x, result, Teuchos::NO_TRANS, 1, -1);
+    };
+    Hessian hessian(rough, 4000, at_once ? Hessian::Gradient(gradient) : Hessian::Gradient());
+    Budget budget(hessian, {}, false);
+    budget.start(Patience(390));  // SMALSE-M is not to go on
+    const auto solver =
+        solver_kind("direct").make({hessian, programme.equality, programme.set}, {budget, nullptr, [&] {
+                                                                                    auto result = setting.explicit_programme();
+                                                                                    result.rough_products = true;
+                                                                                    return result;
+                                                                                  }});
+    const auto radii = programme.set.radii();
+    Goal goal{1e-8};
+    goal.allowed_error = [](const Vector&, const Eigen::VectorXd&) { return 1e-6; };
+    goal.energy_norm = [&](const Vector& x, const Eigen::VectorXd&) { return programme.distance(x, 0 * gathered(x, world())); };
+    std::optional<Solution> start;
+    const Foreknown known = solver->begin(programme.right, radii, start, goal, {});
+    EXPECT_EQ(known.answer.has_value(), at_once);
+    if (!at_once) continue;
+    EXPECT_EQ(hessian.count(), 1);
+    EXPECT_LT(programme.distance(known.answer->x, programme.reference()), 1e-6);
+  }
+}
+
 // That bodies slide on for ever is told to who follows a law, and once; with radii that are given there is a solution.
 TEST(DirectSolver, TellsALawOnceThatBodiesSlide)
 {

@@ -9,6 +9,7 @@
 #include "feti/clusters.hpp"
 #include "feti/elastic_rows.hpp"
 #include "feti/jump_operator.hpp"
+#include "qp/problem.hpp"
 
 namespace mortise::feti {
 
@@ -32,9 +33,14 @@ class DualOperator : public Operator {
   void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override;
   /// The same of one column. Returns what it is made of: K^+ B'x of each subdomain of this rank. Collective.
   std::vector<Eigen::VectorXd> multiply(const Vector& x, Vector& y, Scalar alpha, Scalar beta) const;
+  /// F x - d, d = B K^+ f - c: -B K^+ (f - B'x) + c at once. On slender subdomains K^+ f and K^+ B'x are large where each bends
+  /// freely, and their difference, rounded in parts, is not known to what contact needs. Collective.
+  void gradient(const Vector& x, const qp::RightHandSide& right, Vector& gradient) const;
   Products products() const { return products_; }
 
  private:
+  void add_compliance(const Vector& x, Vector& y) const;
+
   const JumpOperator& jump_;
   const Clusters& clusters_;
   Timers& timers_;

@@ -84,6 +84,12 @@ class DualSystem {
   /// is K^+ all the same. The largest of all subdomains of all ranks; 0 if F is exact.
   double rounding() const { return hessian_->products() == Products::rounded ? rounding_ : 0; }
 
+  /// F x - d of a load state, with `product` for F, or, where subdomains are slender, at once (DualOperator::gradient()).
+  /// Collective.
+  void gradient(const Operator& product, const Vector& x, const qp::RightHandSide& right, Vector& gradient) const;
+  /// Whether rounding bends some subdomain of some rank so much that its solutions are refined (SubdomainOperator::inaccuracy()).
+  bool slender() const { return slender_; }
+
   /// The motions that gauges hold, in the order of the gauges' rows, which are the last ones, from jump().contact_rows().second
   /// on. FreeMotion::work and force are those of the first loads.
   const std::vector<FreeMotion>& gauged() const { return gauged_; }
@@ -125,6 +131,7 @@ class DualSystem {
   std::vector<FreeMotion> gauged_;
   std::vector<double> sizes_;  // of the bodies
   double rounding_ = 0;
+  bool slender_ = false;
 };
 
 }  // namespace mortise::feti

@@ -72,8 +72,7 @@ class FaceNewton {
   void minimise(Run& run, const Trial& trial);
   Solution solution_of(Run run) const;
 
-  void evaluate(const Vector& b, const Vector& x, Vector& gradient) const;
-  void evaluate(const Vector& b, Trial& trial) const;
+  void evaluate(const RightHandSide& right, Trial& trial) const;
   double residual_to_reach(const Run& run) const;
   void report(const Run& run, const char* what, bool outer) const;
 

@@ -19,16 +19,40 @@
 
 namespace mortise::qp {
 
+/// What is new in a load step. A value: one that is shared is replaced, never written to.
+struct RightHandSide {
+  Vector b;                           ///< the linear term
+  Eigen::VectorXd e;                  ///< of G x = e, whole on every rank
+  std::optional<Vector> driven = {};  ///< A x of an x that e asks for apart from b: its size counts like that of b
+  /// Of A = B K^+ B' + S, see sparse_newton.hpp: the f, of each of this rank's blocks of K, and the c that b = B K^+ f - c and
+  /// e = R'f come from. Of others empty.
+  std::vector<Eigen::VectorXd> f = {};
+  Eigen::VectorXd c = {};
+};
+
 /// A with its products counted: the figure by which solvers are compared.
 class Hessian {
  public:
-  /// `a` outlives it; `limit`: applications after which it is exhausted.
-  explicit Hessian(const Operator& a, int limit) : a_(&a), limit_(limit) {}
+  /// Makes A x - b at once.
+  using Gradient = std::function<void(const Vector& x, const RightHandSide& right, Vector& gradient)>;
+  /// `a` outlives it; `limit`: applications after which it is exhausted. `gradient`: where A x and b are large and lose what
+  /// their difference has, who makes that; else empty.
+  explicit Hessian(const Operator& a, int limit, Gradient gradient = {}) : a_(&a), gradient_(std::move(gradient)), limit_(limit)
+  {
+  }
   /// y = A x. Collective.
   void apply(const Vector& x, Vector& y)
   {
     ++count_;
     a_->apply(x, y);
+  }
+  /// A x - b, which counts as a product. Collective.
+  void gradient(const Vector& x, const RightHandSide& right, Vector& gradient)
+  {
+    ++count_;
+    if (gradient_) return gradient_(x, right, gradient);
+    a_->apply(x, gradient);
+    gradient.update(-1, right.b, 1);
   }
   int count() const { return count_; }                 ///< applications so far, the same on all ranks
   bool exhausted() const { return count_ >= limit_; }  ///< whether the limit is reached; apply() works beyond it
@@ -38,6 +62,7 @@ class Hessian {
 
  private:
   const Operator* a_;
+  Gradient gradient_;
   int limit_;
   int count_ = 0;
 };
@@ -66,17 +91,6 @@ class ActiveSetPreconditioner : public Operator {
     apply(r, z);
     return r.dot(z);
   }
-};
-
-/// What is new in a load step. A value: one that is shared is replaced, never written to.
-struct RightHandSide {
-  Vector b;                           ///< the linear term
-  Eigen::VectorXd e;                  ///< of G x = e, whole on every rank
-  std::optional<Vector> driven = {};  ///< A x of an x that e asks for apart from b: its size counts like that of b
-  /// Of A = B K^+ B' + S, see sparse_newton.hpp: the f, of each of this rank's blocks of K, and the c that b = B K^+ f - c and
-  /// e = R'f come from. Of others empty.
-  std::vector<Eigen::VectorXd> f = {};
-  Eigen::VectorXd c = {};
 };
 
 /// What all problems of a sequence have in common. Refers to its parts; they outlive it and do not change.
