@@ -182,7 +182,7 @@ std::vector<Warning> tied_preloads(std::span<const constraint::PretensionSection
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const auto& preload = sections[i].preload;
     const auto c = static_cast<std::size_t>(preload.contact);
-    if (!preload.force || !(areas[c] > 0)) continue;
+    if (!preload.force || *preload.force == 0 || !(areas[c] > 0)) continue;
     const double limit = none * *preload.force / (modulus * std::sqrt(areas[c]));
     if (std::abs(shortenings[i]) > limit) continue;
     result.push_back(about(pairs[c], "tied_preload",

@@ -239,6 +239,22 @@ TEST(LooseFits, PressNowhere)
   EXPECT_EQ(found(0, contact::Law::frictionless, 0.01), 0U);
 }
 
+// 100 on a modulus of 1e4 and an area of 4: 5e-3 are usual, 5e-8 the limit. A bolt that nobody tightens has nothing to shorten.
+TEST(TiedPreloads, ShortenNothing)
+{
+  std::vector<contact::Pair> pairs(1);
+  pairs[0].options.name = "cut";
+  std::vector<constraint::PretensionSection> sections(1);
+  sections[0].preload = {0, "cut", 100, 0};
+  const auto found = [&](double shortening) {
+    return tied_preloads(sections, std::vector{shortening}, std::vector{4.0}, pairs, 1e4).size();
+  };
+  EXPECT_EQ(found(4.9e-8), 1U);
+  EXPECT_EQ(found(5.1e-8), 0U);
+  sections[0].preload.force = 0;
+  EXPECT_EQ(found(0), 0U);
+}
+
 TEST(LostMoments, FromAHundredth)
 {
   std::vector<contact::Pair> pairs(2);
