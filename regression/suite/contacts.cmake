@@ -51,6 +51,8 @@ mortise_regression(soft_film VARIANT .thicker RANKS 1 2 STUDY_RANKS 3 EXPECTED c
       materials.rubber.poisson_ratio=0.49 solver.tolerance=1e-8)
 mortise_regression(bent_ring RANKS 1)
 mortise_regression(tube_of_one_layer RANKS 1 STUDY_RANKS 2)
+mortise_regression(rubber_pad RANKS 1 STUDY_RANKS 2)
+mortise_regression(rubber_pad VARIANT .quad8 RANKS 1 SET mesh.blocks.pad.element=quad8 EXPECTED cases/rubber_pad.quad8.expected.json)
 mortise_regression(tube_of_one_layer VARIANT .triangles RANKS 1 EXPECTED cases/tube_of_one_layer.triangles.expected.json
                    SET mesh.blocks.tube.element=tri3)
 mortise_regression(twisted_bar RANKS 1 STUDY_RANKS 2 3)

@@ -171,6 +171,30 @@ Eigen::VectorXd squared_errors_of_bending(const mesh::Mesh& mesh, const Material
   return result.cwiseMax(0.0);
 }
 
+Eigen::VectorXd unseen_by_locking(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
+                                  Formulation formulation)
+{
+  constexpr double compressible = 10, most = 2.2;  // bulk over shear modulus; times
+  Eigen::VectorXd result = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(mesh.cells.size()));
+  if (formulation != Formulation::standard || kinematics == Kinematics::plane_stress) return result;
+  const Stress hydrostatic = (Stress() << 1, 1, 1, 0, 0, 0).finished(), shear = Stress::Unit(3);
+  const auto elasticity = elasticities(materials, kinematics);
+  CellGeometry cell(kinematics);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const auto type = mesh.cells.type[c];
+    if (!mesh::second_order(type) || type == mesh::CellType::tri6) continue;
+    const auto& law = elasticity[materials.index(c)];
+    if (!law.uniform()) {
+      cell.gather(mesh, c);
+      cell.evaluate();
+    }
+    const Point at = place_for(law, cell, 0);
+    const double stiffer = law.complementary(shear, at) / law.complementary(hydrostatic, at);
+    result[static_cast<Eigen::Index>(c)] = std::clamp(1 + 0.5 * std::log10(stiffer / compressible), 1.0, most);
+  }
+  return result;
+}
+
 Eigen::VectorXd squared_errors_of_temperature(const mesh::Mesh& mesh, const Materials& materials, Kinematics kinematics,
                                               Formulation formulation, const Temperature& temperature_change)
 {

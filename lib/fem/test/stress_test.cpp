@@ -229,6 +229,24 @@ TEST(Stress, ErrorOfBendingIsWhatModesTakeAway)
   EXPECT_LT(squared_errors_of_bending(block.mesh, m, Kinematics::plane_stress, stretched).sum(), 1e-9 * young);
 }
 
+// Cells of second order hide what they lack where the bulk modulus is far above that of shear, but for triangles.
+TEST(Stress, LockingIsUnseenBySecondOrderAlone)
+{
+  const auto times = [](const char* element, double nu, Kinematics kinematics, Formulation formulation = Formulation::standard) {
+    const Block block(element, {1, 1, 0}, {1, 1, 0});
+    return unseen_by_locking(block.mesh, Material{1000, nu, 0, 0}, kinematics, formulation).maxCoeff();
+  };
+  const double bulk_over_shear = 2 * 1.49 / (3 * 0.02);
+  EXPECT_NEAR(times("quad9", 0.49, Kinematics::plane_strain), 1 + 0.5 * std::log10(bulk_over_shear / 10), 1e-9);
+  EXPECT_NEAR(times("quad8", 0.49, Kinematics::axisymmetric), 1 + 0.5 * std::log10(bulk_over_shear / 10), 1e-9);
+  EXPECT_EQ(times("quad9", 0.45, Kinematics::plane_strain), 1);
+  EXPECT_EQ(times("quad9", 0.499999, Kinematics::plane_strain), 2.2);
+  EXPECT_EQ(times("quad9", 0.49, Kinematics::plane_stress), 1);
+  EXPECT_EQ(times("tri6", 0.49, Kinematics::plane_strain), 1);
+  EXPECT_EQ(times("quad4", 0.49, Kinematics::plane_strain), 1);
+  EXPECT_EQ(times("quad9", 0.49, Kinematics::plane_strain, Formulation::bbar), 1);
+}
+
 // Stretched by 1 with free sides: E in plane stress; E / (1 - nu^2) and nu times that across the plane in plane strain.
 TEST(Stress, PlaneStatesUnderTension)
 {

@@ -239,6 +239,7 @@ Eigen::VectorXd squared_errors(const ElasticBodies& bodies, std::size_t s, const
       squared = std::max(of_linear_shear * squared, across_layer[static_cast<Eigen::Index>(c)]);
     squared = std::max(squared, along_layer[static_cast<Eigen::Index>(c)]);
   }
+  result.array() *= fem::unseen_by_locking(mesh, own.materials, bodies.kinematics, own.formulation).array().square();
   return result.cwiseMax(
       fem::squared_errors_of_temperature(mesh, own.materials, bodies.kinematics, own.formulation, own.temperature_change));
 }
