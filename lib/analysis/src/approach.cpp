@@ -35,6 +35,13 @@ bool has_large_subdomains(const Assembly& assembly, const Communicator& comm)
   return comm.max(largest) > large * usual_unknowns(assembly.deck());
 }
 
+// Whether rounding bends some subdomain. Collective.
+bool has_slender_subdomains(const Assembly& assembly, const Communicator& comm)
+{
+  return comm.any(std::ranges::any_of(assembly.system().clusters.subdomains(),
+                                      [](const auto& subdomain) { return subdomain->inaccuracy() > feti::inaccurate; }));
+}
+
 // Whether some body but those of boundary elements is cut. Collective.
 bool cuts_bodies(const Assembly& assembly, const Communicator& comm)
 {
@@ -71,7 +78,9 @@ Approach with_patience(Approach approach, const Assembly& assembly, const constr
   if (approach.kind == Approach::Kind::direct_instead)
     approach.patience = Limits::of_check;
   else if (approach.kind == Approach::Kind::whole_bodies)
-    approach.patience = qp::Patience(Limits::on_whole_bodies, Limits::near_on_whole_bodies);
+    approach.patience = has_slender_subdomains(assembly, comm)
+                            ? qp::Patience(Limits::on_slender_bodies)
+                            : qp::Patience(Limits::on_whole_bodies, Limits::near_on_whole_bodies);
   else if (approach.algorithm == qp::Options::automatic) {
     const auto of_direct = effort();
     approach.patience = patience_with_products(of_direct, comm);

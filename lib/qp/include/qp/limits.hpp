@@ -178,6 +178,7 @@ struct Automatic {
   static constexpr double long_direct = 4;          ///< seconds from which on matrices are long enough for that
   static constexpr int on_whole_bodies = 300;       ///< without rows between subdomains contact alone is left to find
   static constexpr int near_on_whole_bodies = 100;  ///< and these more with the end in sight
+  static constexpr int on_slender_bodies = 40;      ///< of them: plates 400 times as wide as thick find no end in 400
 
   // Of matrices.
   static constexpr int of_check = 600;                     ///< that show a start: plates 280 times as wide as thick need 452
