@@ -225,12 +225,8 @@ std::vector<Warning> check_results(const model::Model& model, const StepState& s
   const auto& [fields, contact, forces, accuracy, neglected, verdict] = results;
   auto result = post::large_displacements(decomposition, sizes, state.displacement, comm);
   append(result, post::inverted_cells(decomposition, state.displacement, comm));
-  append(result,
-         post::long_slides(pairs, state.rows->constraints.contacts, contact.states, decomposition, state.displacement, comm));
-  append(result, post::facet_turns(pairs, state.rows->constraints.contacts, contact.states, decomposition, deck.kinematics,
-                                   state.displacement, comm));
-  append(result, post::rolled_contacts(pairs, state.rows->constraints.contacts, contact.states, decomposition, deck.kinematics,
-                                       state.displacement, comm));
+  append(result, post::slides_and_rolls(pairs, state.rows->constraints.contacts, contact.states, decomposition, deck.kinematics,
+                                        state.displacement, comm));
   append(result, post::large_turns(neglected.turn, pairs, names));
   append(result, post::large_pressures(contact.surfaces, pairs, softest, names, comm));
   append(result, post::narrow_contacts(contact.surfaces, contact.states, pairs, state.before.unfelt(), comm));

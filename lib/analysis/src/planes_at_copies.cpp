@@ -20,14 +20,15 @@ struct PlaneAtCopy {
 
 }  // namespace
 
-std::vector<std::vector<post::SymmetricNode>> planes_at_copies(
-    std::span<const Global> nodes, std::span<const std::vector<Point>> normals, const partition::Decomposition& decomposition,
-    const partition::NodeDirectory& directory, const Communicator& comm, std::span<const std::vector<double>> tractions)
+std::vector<std::vector<post::SymmetricNode>> planes_at_copies(std::span<const Global> nodes,
+                                                               std::span<const std::vector<Point>> normals,
+                                                               const partition::Decomposition& decomposition,
+                                                               const partition::NodeHomes& homes, const Communicator& comm,
+                                                               std::span<const std::vector<double>> tractions)
 {
-  const auto copies = directory.find(nodes, comm);
   std::vector<std::vector<PlaneAtCopy>> planes(static_cast<std::size_t>(comm.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    for (const auto& copy : copies[i])
+    for (const auto& copy : homes.copies(nodes[i]))
       for (std::size_t k = 0; k < normals[i].size(); ++k) {
         planes[static_cast<std::size_t>(decomposition.rank_of(copy.subdomain))].push_back(
             {copy.subdomain, copy.node, static_cast<int>(k), components(normals[i][k]), tractions.empty() ? 0 : tractions[i][k]});

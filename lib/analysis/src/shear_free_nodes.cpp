@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "mesh/shape_functions.hpp"
+#include "nodes_in_rows.hpp"
 #include "planes_at_copies.hpp"
 #include "sent_points.hpp"
 
@@ -74,8 +75,8 @@ class FaceNormals {
   Point middle_ = Point::Zero();
 };
 
-// On the ranks node % ranks, ascending. Collective.
-std::vector<FaceAtNode> faces_at_nodes(const mesh::Surface& surface, const Communicator& comm)
+// On the homes of the nodes, ascending. Collective.
+std::vector<FaceAtNode> faces_at_nodes(const mesh::Surface& surface, const partition::NodeHomes& homes, const Communicator& comm)
 {
   std::vector<std::vector<FaceAtNode>> send(static_cast<std::size_t>(comm.size()));
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
@@ -88,7 +89,7 @@ std::vector<FaceAtNode> faces_at_nodes(const mesh::Surface& surface, const Commu
       const Point normal = face.normal(i);
       const double size = normal.norm();
       if (!(size > 0)) continue;
-      send[home(node, comm)].push_back(
+      send[homes(node)].push_back(
           {node, surface.face_id[f], components(normal / size), components(face.middle() - surface.points[at]), size, plane});
     }
   }
@@ -106,17 +107,15 @@ struct Touch {
   std::array<double, 3> normal;
 };
 
-// On the ranks node % ranks, ascending. Collective.
-std::vector<Touch> touches(const model::Model& model, const Rows& rows, const Communicator& comm)
+// On the homes of the nodes, ascending. Collective.
+std::vector<Touch> touches(const model::Model& model, const Rows& rows, const partition::NodeHomes& homes,
+                           const Communicator& comm)
 {
   std::vector<std::vector<Touch>> send(static_cast<std::size_t>(comm.size()));
-  const auto touch = [&](const Touch& t) { send[home(t.node, comm)].push_back(t); };
+  const auto touch = [&](const Touch& t) { send[homes(t.node)].push_back(t); };
   for (const auto& action : model.face_actions(rows.acts, comm))
     touch({action.node, action.kind != model::FaceAction::Kind::prescribed, action.normal});
-  const auto& contacts = rows.constraints.contacts;
-  for (std::size_t i = 0; i < contacts.rows.size(); ++i)
-    for (const auto& entry : contacts.rows[i]) touch({entry.node, true, {}});
-  for (const auto& node : contacts.nodes) touch({node.node, true, {}});
+  for (const Global node : nodes_in_rows(rows.constraints.contacts)) touch({node, true, {}});
   std::vector<Touch> result;
   for (const auto& part : comm.exchange(send)) result.insert(result.end(), part.begin(), part.end());
   std::ranges::sort(result, {}, &Touch::node);
@@ -158,12 +157,12 @@ std::vector<Point> normals_of_surfaces(std::span<const FaceAtNode> faces, std::s
   return result;
 }
 
-// On the ranks node % ranks, ascending. Collective.
+// On the homes of the nodes, ascending. Collective.
 std::vector<model::FacePressure> pressures_at_nodes(const model::Model& model, const model::LoadState& acts,
-                                                    const Communicator& comm)
+                                                    const partition::NodeHomes& homes, const Communicator& comm)
 {
   std::vector<std::vector<model::FacePressure>> send(static_cast<std::size_t>(comm.size()));
-  for (const auto& pressed : model.face_pressures(acts)) send[home(pressed.node, comm)].push_back(pressed);
+  for (const auto& pressed : model.face_pressures(acts)) send[homes(pressed.node)].push_back(pressed);
   std::vector<model::FacePressure> result;
   for (const auto& part : comm.exchange(send)) result.insert(result.end(), part.begin(), part.end());
   std::ranges::stable_sort(result, {}, &model::FacePressure::node);
@@ -187,12 +186,11 @@ double traction_across(const Point& normal, std::span<const FaceAtNode> faces, s
 }  // namespace
 
 std::vector<std::vector<post::SymmetricNode>> find_shear_free_nodes(const model::Model& model, const Rows& rows,
-                                                                    const partition::NodeDirectory& directory,
-                                                                    const Communicator& comm)
+                                                                    const partition::NodeHomes& homes, const Communicator& comm)
 {
-  const auto faces = faces_at_nodes(model.outer_surface(comm), comm);
-  const auto touched = touches(model, rows, comm);
-  const auto pressures = pressures_at_nodes(model, rows.acts, comm);
+  const auto faces = faces_at_nodes(model.outer_surface(comm), homes, comm);
+  const auto touched = touches(model, rows, homes, comm);
+  const auto pressures = pressures_at_nodes(model, rows.acts, homes, comm);
   std::vector<Global> nodes;
   std::vector<std::vector<Point>> normals;
   std::vector<std::vector<double>> tractions;
@@ -210,7 +208,7 @@ std::vector<std::vector<post::SymmetricNode>> find_shear_free_nodes(const model:
     nodes.push_back(faces[i].node);
     normals.push_back(std::move(found));
   }
-  return planes_at_copies(nodes, normals, model.decomposition(), directory, comm, tractions);
+  return planes_at_copies(nodes, normals, model.decomposition(), homes, comm, tractions);
 }
 
 }  // namespace mortise::analysis

@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "nodes_in_rows.hpp"
 #include "planes_at_copies.hpp"
 #include "rotated_nodes.hpp"
 #include "sent_points.hpp"
@@ -19,11 +20,12 @@ using Kind = model::FaceAction::Kind;
 constexpr double parallel = 1e-3;     // angle between what is meant to be parallel in a mesh, and distance from a plane over size
 constexpr double right_angle = 1e-2;  // its cosine, likewise
 
-// To rank node % ranks.
-std::vector<model::FaceAction> sent_home(const std::vector<model::FaceAction>& actions, const Communicator& comm)
+// To the homes of the nodes. Collective.
+std::vector<model::FaceAction> sent_home(const std::vector<model::FaceAction>& actions, const partition::NodeHomes& homes,
+                                         const Communicator& comm)
 {
   std::vector<std::vector<model::FaceAction>> send(static_cast<std::size_t>(comm.size()));
-  for (const auto& action : actions) send[home(action.node, comm)].push_back(action);
+  for (const auto& action : actions) send[homes(action.node)].push_back(action);
   std::vector<model::FaceAction> result;
   for (const auto& part : comm.exchange(send)) result.insert(result.end(), part.begin(), part.end());
   return result;
@@ -55,9 +57,9 @@ std::span<const PrescribedNormal> planes_at(std::span<const PrescribedNormal> pr
   return {begin, end};
 }
 
-// The planes of those of `nodes` that `actions`, on the ranks node % ranks, hold; ascending. Collective.
+// The planes of those of `nodes` that `actions`, on the homes of their nodes, hold; ascending. Collective.
 std::vector<PrescribedNormal> prescribed_normals(std::span<const Global> nodes, const std::vector<model::FaceAction>& actions,
-                                                 const Communicator& comm)
+                                                 const partition::NodeHomes& homes, const Communicator& comm)
 {
   const auto by_node = [](const PrescribedNormal& a, const PrescribedNormal& b) { return a.node < b.node; };
   std::vector<PrescribedNormal> prescribed;
@@ -65,7 +67,7 @@ std::vector<PrescribedNormal> prescribed_normals(std::span<const Global> nodes, 
     if (action.kind == Kind::prescribed) prescribed.push_back({action.node, action.normal});
   std::sort(prescribed.begin(), prescribed.end(), by_node);
   std::vector<std::vector<Global>> asked(static_cast<std::size_t>(comm.size()));
-  for (const Global node : nodes) asked[home(node, comm)].push_back(node);
+  for (const Global node : nodes) asked[homes(node)].push_back(node);
   std::vector<std::vector<PrescribedNormal>> answers;
   for (const auto& part : comm.exchange(asked)) {
     auto& answer = answers.emplace_back();
@@ -82,14 +84,14 @@ std::vector<PrescribedNormal> prescribed_normals(std::span<const Global> nodes, 
 
 // Drops faces of curved surfaces, which have neighbours that are held along other normals, and faces at edges with more than a
 // right angle. Collective.
-void drop_curved(std::vector<model::FaceAction>& actions, const Communicator& comm)
+void drop_curved(std::vector<model::FaceAction>& actions, const partition::NodeHomes& homes, const Communicator& comm)
 {
   std::vector<Global> nodes;
   for (const auto& action : actions)
     if (action.kind == Kind::prescribed) nodes.push_back(action.node);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  const auto prescribed = prescribed_normals(nodes, sent_home(actions, comm), comm);
+  const auto prescribed = prescribed_normals(nodes, sent_home(actions, homes, comm), homes, comm);
   std::set<std::size_t> curved;
   for (const auto& action : actions) {
     if (action.kind != Kind::prescribed) continue;
@@ -107,7 +109,8 @@ void drop_curved(std::vector<model::FaceAction>& actions, const Communicator& co
 class ContactForces {
  public:
   // Collective.
-  ContactForces(const constraint::Contacts& contacts, const std::vector<model::FaceAction>& actions, const Communicator& comm)
+  ContactForces(const constraint::Contacts& contacts, const std::vector<model::FaceAction>& actions,
+                const partition::NodeHomes& homes, const Communicator& comm)
       : contacts_(contacts)
   {
     std::vector<Global> all;
@@ -118,7 +121,7 @@ class ContactForces {
       }
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
-    prescribed_ = prescribed_normals(all, actions, comm);
+    prescribed_ = prescribed_normals(all, actions, homes, comm);
     for (std::size_t i = 0; i < contacts.nodes.size(); ++i) {
       const auto& node = contacts.nodes[i];
       for (std::size_t t = 0; t < node.tangents.size(); ++t) add_row(node, node.row + 1 + t, node.tangents[t]);
@@ -195,10 +198,10 @@ std::vector<Point> normals_of(Actions actions)
   return normals;
 }
 
-// The planes of each node at all of its copies, from what acts there, on rank node % ranks. Collective.
+// The planes of each node at all of its copies, from what acts there, on its home. Collective.
 std::vector<std::vector<post::SymmetricNode>> at_copies(std::vector<model::FaceAction> actions,
                                                         const partition::Decomposition& decomposition,
-                                                        const partition::NodeDirectory& directory, const Communicator& comm)
+                                                        const partition::NodeHomes& homes, const Communicator& comm)
 {
   std::sort(actions.begin(), actions.end(), [](const model::FaceAction& a, const model::FaceAction& b) {
     return std::tie(a.node, a.kind, a.normal, a.at, a.direction, a.size) <
@@ -213,7 +216,7 @@ std::vector<std::vector<post::SymmetricNode>> at_copies(std::vector<model::FaceA
     nodes.push_back(actions[i].node);
     normals.push_back(std::move(found));
   }
-  return planes_at_copies(nodes, normals, decomposition, directory, comm);
+  return planes_at_copies(nodes, normals, decomposition, homes, comm);
 }
 
 // Whether a cell at the node reaches beyond the plane.
@@ -272,16 +275,16 @@ void turn_about_axis(std::vector<std::vector<post::SymmetricNode>>& symmetric, c
 
 // Collective.
 std::vector<std::vector<post::SymmetricNode>> find_mirrored_nodes(const model::Model& model, const Rows& rows,
-                                                                  const partition::NodeDirectory& directory,
+                                                                  const partition::NodeHomes& homes,
                                                                   const partition::Interface& interface, const Communicator& comm)
 {
   auto actions = model.face_actions(rows.acts, comm);
   if (!comm.any(std::any_of(actions.begin(), actions.end(), [](const auto& a) { return a.kind == Kind::prescribed; }))) return {};
-  drop_curved(actions, comm);
-  actions = sent_home(actions, comm);
-  const auto pushed = sent_home(ContactForces(rows.constraints.contacts, actions, comm).found, comm);
+  drop_curved(actions, homes, comm);
+  actions = sent_home(actions, homes, comm);
+  const auto pushed = sent_home(ContactForces(rows.constraints.contacts, actions, homes, comm).found, homes, comm);
   actions.insert(actions.end(), pushed.begin(), pushed.end());
-  auto symmetric = at_copies(std::move(actions), model.decomposition(), directory, comm);
+  auto symmetric = at_copies(std::move(actions), model.decomposition(), homes, comm);
   drop_crossed(symmetric, model.decomposition(), interface, comm);
   if (model.deck().axisymmetric()) turn_about_axis(symmetric, model.decomposition(), model.rounding(comm));
   return symmetric;
@@ -292,8 +295,9 @@ std::vector<std::vector<post::SymmetricNode>> find_mirrored_nodes(const model::M
 post::SymmetricNodes find_symmetric_nodes(const model::Model& model, const Rows& rows, const partition::NodeDirectory& directory,
                                           const partition::Interface& interface, const Communicator& comm)
 {
-  return {find_mirrored_nodes(model, rows, directory, interface, comm),
-          find_rotated_nodes(rows, model.decomposition(), directory, comm), find_shear_free_nodes(model, rows, directory, comm)};
+  const partition::NodeHomes homes(model.decomposition(), interface, directory, nodes_in_rows(rows.constraints.contacts), comm);
+  return {find_mirrored_nodes(model, rows, homes, interface, comm),
+          find_rotated_nodes(rows, model.decomposition(), directory, comm), find_shear_free_nodes(model, rows, homes, comm)};
 }
 
 }  // namespace mortise::analysis

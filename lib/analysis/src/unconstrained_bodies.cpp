@@ -5,6 +5,7 @@
 #include "analysis/checks.hpp"
 #include "base/error.hpp"
 #include "contact/proximity.hpp"
+#include "nodes_in_rows.hpp"
 
 namespace mortise::analysis {
 
@@ -20,6 +21,7 @@ std::vector<bool> reached(const std::vector<contact::Pair>& pairs, const constra
   struct NodeOfBody {
     Global node;
     long long body;
+    auto operator<=>(const NodeOfBody&) const = default;
   };
   const auto ranks = static_cast<std::size_t>(comm.size());
   std::vector<std::vector<NodeOfBody>> on_bodies(ranks);
@@ -35,8 +37,11 @@ std::vector<bool> reached(const std::vector<contact::Pair>& pairs, const constra
     tell(pair.secondary);
     if (pair.primary) tell(*pair.primary);
   }
-  for (const auto& node : contacts.nodes) touched[static_cast<std::size_t>(node.node) % ranks].push_back(node.node);
-  for (const auto& entry : contacts.rows.entries) touched[static_cast<std::size_t>(entry.node) % ranks].push_back(entry.node);
+  for (auto& nodes : on_bodies) {
+    std::ranges::sort(nodes);
+    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  }
+  for (const Global node : nodes_in_rows(contacts)) touched[static_cast<std::size_t>(node) % ranks].push_back(node);
   std::vector<Global> nodes;
   for (const auto& part : comm.exchange(touched)) nodes.insert(nodes.end(), part.begin(), part.end());
   std::sort(nodes.begin(), nodes.end());

@@ -56,7 +56,13 @@ void check_agreement(const PrescribedDof& a, const PrescribedDof& b, std::span<c
 std::vector<PrescribedDof> dirichlet_rows(std::span<const Support> supports, std::span<const SupportNodes> nodes, int dimension,
                                           const Communicator& comm, std::span<const PrescribedDof> aligned)
 {
-  std::vector<std::vector<PrescribedDof>> send(static_cast<std::size_t>(comm.size()));
+  struct Sent {
+    Global node;
+    int component, support;
+    double value;
+    std::array<double, 3> at;
+  };
+  std::vector<std::vector<Sent>> send(static_cast<std::size_t>(comm.size()));
   collectively(comm, [&] {
     for (std::size_t i = 0; i < supports.size(); ++i) {
       if (supports[i].axes) continue;
@@ -66,13 +72,14 @@ std::vector<PrescribedDof> dirichlet_rows(std::span<const Support> supports, std
             const Global node = nodes[i].id[n];
             const Point& x = nodes[i].at[n];
             send[static_cast<std::size_t>(node % comm.size())].push_back(
-                {node, c, value_at(supports, static_cast<int>(i), *formula, x), static_cast<int>(i), {x[0], x[1], x[2]}});
+                {node, c, static_cast<int>(i), value_at(supports, static_cast<int>(i), *formula, x), {x[0], x[1], x[2]}});
           }
     }
   });
 
   std::vector<PrescribedDof> prescribed(aligned.begin(), aligned.end());
-  for (const auto& part : comm.exchange(send)) prescribed.insert(prescribed.end(), part.begin(), part.end());
+  for (const auto& part : comm.exchange(send))
+    for (const auto& p : part) prescribed.push_back({p.node, p.component, p.value, p.support, p.at});
   std::sort(prescribed.begin(), prescribed.end(), [](const PrescribedDof& a, const PrescribedDof& b) {
     return std::tie(a.node, a.component, a.support) < std::tie(b.node, b.component, b.support);
   });

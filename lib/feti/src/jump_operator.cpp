@@ -1,7 +1,9 @@
 #include "feti/jump_operator.hpp"
 
+#include <Tpetra_Import_Util.hpp>
 #include <algorithm>
 
+#include "base/packed.hpp"
 #include "row_builder.hpp"
 
 namespace mortise::feti {
@@ -38,6 +40,35 @@ Teuchos::RCP<const Map> map_of(const std::vector<Global>& rows, const Communicat
   const auto invalid = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   return Teuchos::rcp(new Map(invalid, Teuchos::ArrayView<const Global>(rows.data(), static_cast<Teuchos::Ordinal>(rows.size())),
                               0, teuchos(comm)));
+}
+
+// Entries of a sparse matrix on their way: row, column, value.
+struct EntriesOfRows {
+  std::vector<Global> row, index;
+  std::vector<double> value;
+};
+
+// send[r] goes to rank r; returns what came from each rank. Collective.
+std::vector<EntriesOfRows> exchange_entries(const std::vector<EntriesOfRows>& send, const Communicator& comm)
+{
+  std::vector<std::vector<char>> messages;
+  for (const auto& to : send) {
+    PackedWriter writer;
+    if (!to.row.empty()) {
+      writer.integers(to.row);
+      writer.integers(to.index);
+      writer.numbers(to.value);
+    }
+    messages.push_back(writer.take());
+  }
+  std::vector<EntriesOfRows> received;
+  for (const auto& message : comm.exchange(messages)) {
+    auto& from = received.emplace_back();
+    if (message.empty()) continue;
+    PackedReader reader(message);
+    from = {reader.integers(), reader.integers(), reader.numbers()};
+  }
+  return received;
 }
 
 // Moves on from `piece` over those of one subdomain. `rows`: the overlapping map.
@@ -146,48 +177,49 @@ Vector JumpOperator::apply(const std::vector<Eigen::VectorXd>& u) const
 
 SparseMatrix JumpOperator::gather_columns(const std::vector<Columns>& parts, int height, const Communicator& comm) const
 {
-  struct Sent {
-    Global row;
-    int index;
-    double value;
-  };
   const auto touched = overlap_->getNodeElementList();
-  std::vector<int> rank(static_cast<std::size_t>(touched.size()));
-  rows_->getRemoteIndexList(touched, Teuchos::ArrayView<int>(rank.data(), touched.size()));
-  std::vector<Local> owned(rank.size());  // where row of the overlapping map stands here
-  for (std::size_t r = 0; r < rank.size(); ++r) owned[r] = rows_->getLocalElement(touched[static_cast<Teuchos::Ordinal>(r)]);
-  std::vector<std::vector<Sent>> send(static_cast<std::size_t>(comm.size()));
+  Teuchos::Array<int> rank;  // that owns each of these rows
+  Tpetra::Import_Util::getPids(*import_, rank, false);
+  std::vector<Local> owned;  // where they stand here
+  for (const Global row : touched) owned.push_back(rows_->getLocalElement(row));
+  std::vector<EntriesOfRows> send(static_cast<std::size_t>(comm.size()));
   const auto for_each_part = [&](const auto& visit) {
     for (const auto& part : parts)
       for (std::size_t r = 0; r < part.row.size(); ++r)
-        visit(static_cast<std::size_t>(part.row[r]), part.first, part.values.col(static_cast<Eigen::Index>(r)));
+        visit(part.row[r], part.first, part.values.col(static_cast<Eigen::Index>(r)));
   };
-  for_each_part([&](std::size_t row, int start, const auto& column) {
+  for_each_part([&](Local row, int start, const auto& column) {
     if (rank[row] == comm.rank()) return;
-    for (int i = 0; i < column.size(); ++i)
-      if (column[i] != 0)
-        send[static_cast<std::size_t>(rank[row])].push_back({touched[static_cast<Teuchos::Ordinal>(row)], start + i, column[i]});
+    auto& to = send[static_cast<std::size_t>(rank[row])];
+    for (int i = 0; i < column.size(); ++i) {
+      if (column[i] == 0) continue;
+      to.row.push_back(touched[row]);
+      to.index.push_back(start + i);
+      to.value.push_back(column[i]);
+    }
   });
-  const auto received = comm.exchange(send);
+  const auto received = exchange_entries(send, comm);
 
   // Compressed columns, without a list of triplets: G is the largest matrix of the dual space.
   const auto width = static_cast<Eigen::Index>(rows_->getNodeNumElements());
   Eigen::VectorXi count = Eigen::VectorXi::Zero(width);
-  for_each_part([&](std::size_t row, int, const auto& column) {
-    if (rank[row] == comm.rank()) count[owned[row]] += static_cast<int>((column.array() != 0).count());
+  const auto here = [&](Local row) { return owned[static_cast<std::size_t>(row)]; };
+  for_each_part([&](Local row, int, const auto& column) {
+    if (rank[row] == comm.rank()) count[here(row)] += static_cast<int>((column.array() != 0).count());
   });
   for (const auto& part : received)
-    for (const auto& entry : part) ++count[rows_->getLocalElement(entry.row)];
+    for (const Global row : part.row) ++count[rows_->getLocalElement(row)];
   SparseMatrix result(height, width);
   if (width == 0) return result;  // a rank without rows: Eigen's makeCompressed() writes beyond no columns
   result.reserve(count);
-  for_each_part([&](std::size_t row, int start, const auto& column) {
+  for_each_part([&](Local row, int start, const auto& column) {
     if (rank[row] != comm.rank()) return;
     for (int i = 0; i < column.size(); ++i)
-      if (column[i] != 0) result.insert(start + i, owned[row]) = column[i];
+      if (column[i] != 0) result.insert(start + i, here(row)) = column[i];
   });
   for (const auto& part : received)
-    for (const auto& entry : part) result.insert(entry.index, rows_->getLocalElement(entry.row)) = entry.value;
+    for (std::size_t i = 0; i < part.row.size(); ++i)
+      result.insert(part.index[i], rows_->getLocalElement(part.row[i])) = part.value[i];
   result.makeCompressed();
   return result;
 }

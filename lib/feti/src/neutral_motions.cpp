@@ -12,14 +12,57 @@ namespace mortise::feti {
 
 namespace {
 
+// R'C R of the rows R of all ranks, C a diagonal matrix of ones and zeros that differs from call to call. Bodies that no row
+// joins have no entry in common: what is not zero is looked up once, and added over the ranks alone.
+class GramOfRows {
+ public:
+  // Collective.
+  GramOfRows(const SparseMatrix& rows, const Communicator& comm) : rows_(rows), comm_(comm)
+  {
+    for_each_entry(lower_triangle(Eigen::VectorXd::Ones(rows.rows())), [&](int place, double) { places_.push_back(place); });
+    places_ = comm.all_gather(places_);
+    std::ranges::sort(places_);
+    places_.erase(std::ranges::unique(places_).begin(), places_.end());
+  }
+
+  // The lower triangle, zeros above it. Collective.
+  Eigen::MatrixXd of(const Eigen::VectorXd& closed) const
+  {
+    std::vector<double> values(places_.size(), 0.0);
+    for_each_entry(lower_triangle(closed), [&](int place, double value) {
+      values[static_cast<std::size_t>(std::ranges::lower_bound(places_, place) - places_.begin())] = value;
+    });
+    comm_.sum_in_place(values);
+    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(rows_.cols(), rows_.cols());
+    for (std::size_t i = 0; i < places_.size(); ++i) gram.data()[places_[i]] = values[i];
+    return gram;
+  }
+
+ private:
+  SparseMatrix lower_triangle(const Eigen::VectorXd& closed) const
+  {
+    const SparseMatrix felt = closed.asDiagonal() * rows_;
+    return SparseMatrix(felt.transpose() * felt).triangularView<Eigen::Lower>();
+  }
+  // visit(place in the dense matrix, value).
+  template <class Visit>
+  void for_each_entry(const SparseMatrix& matrix, const Visit& visit) const
+  {
+    for (int column = 0; column < matrix.outerSize(); ++column)
+      for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry)
+        visit(static_cast<int>(column * matrix.rows() + entry.row()), entry.value());
+  }
+
+  const SparseMatrix& rows_;
+  const Communicator& comm_;
+  std::vector<int> places_;  // ascending
+};
+
 // The amplitudes `now` without what rows with `closed` feel, as a change that takes the rest away.
-Eigen::VectorXd unfelt_change(const SparseMatrix& rows, const Eigen::VectorXd& closed, const Eigen::VectorXd& now,
-                              const Communicator& comm)
+Eigen::VectorXd unfelt_change(const GramOfRows& rows, const Eigen::VectorXd& closed, const Eigen::VectorXd& now)
 {
   constexpr double nothing = 1e-6;
-  const SparseMatrix felt = closed.asDiagonal() * rows;
-  Eigen::MatrixXd gram = Eigen::MatrixXd(SparseMatrix(felt.transpose() * felt));
-  comm.sum_in_place({gram.data(), static_cast<std::size_t>(gram.size())});
+  const Eigen::MatrixXd gram = rows.of(closed);
   const auto eigen = dense::symmetric_eigenpairs(gram);
   const double least = nothing * nothing * std::max(gram.diagonal().maxCoeff(), 1.0);
   const Eigen::Index neutral = (eigen.values.array() < least).count();
@@ -53,9 +96,10 @@ Eigen::VectorXd towards_rest(const FeltMotions& felt, const Eigen::VectorXd& now
   constexpr int most = 20;            // times that what stops a motion is taken for closed
   constexpr double rounding = 1e-10;  // of the change
   constexpr double whole = 0.999;     // of the way: what stops it there is where it was before it moved
+  const GramOfRows gram(felt.rows, comm);
   Eigen::VectorXd closed = felt.closed, gap = felt.gap, way = Eigen::VectorXd::Zero(now.size());
   for (int pass = 0;; ++pass) {
-    const Eigen::VectorXd change = unfelt_change(felt.rows, closed, now + way, comm);
+    const Eigen::VectorXd change = unfelt_change(gram, closed, now + way);
     const Eigen::VectorXd closing = felt.rows * change;
     const double least = rounding * change.lpNorm<Eigen::Infinity>();
     double part = 1;

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/packed.hpp"
+
 namespace mortise::feti {
 
 namespace {
@@ -176,12 +178,33 @@ void RowBuilder::add(std::span<const SubdomainRow> rows)
 
 std::vector<Piece> RowBuilder::receive()
 {
-  std::vector<Piece> all;
-  for (auto& part : comm_.exchange(send_)) {
-    all.insert(all.end(), part.begin(), part.end());
-    part.clear();
+  std::vector<std::vector<char>> messages;
+  for (const auto& part : send_) {
+    std::vector<Global> subdomains, rows, unknowns;
+    std::vector<double> coefficients;
+    for (const auto& piece : part) {
+      subdomains.push_back(piece.subdomain);
+      rows.push_back(piece.row);
+      unknowns.push_back(piece.unknown);
+      coefficients.push_back(piece.coefficient);
+    }
+    PackedWriter writer;
+    if (!part.empty()) {
+      for (const auto* list : {&subdomains, &rows, &unknowns}) writer.integers(*list);
+      writer.numbers(coefficients);
+    }
+    messages.push_back(writer.take());
   }
   send_.clear();
+  std::vector<Piece> all;
+  for (const auto& message : comm_.exchange(messages)) {
+    if (message.empty()) continue;
+    PackedReader reader(message);
+    const auto subdomains = reader.integers(), rows = reader.integers(), unknowns = reader.integers();
+    const auto coefficients = reader.numbers();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      all.push_back({subdomains[i], rows[i], static_cast<Local>(unknowns[i]), coefficients[i]});
+  }
   std::sort(all.begin(), all.end(), [](const Piece& a, const Piece& b) {
     return std::tie(a.subdomain, a.row, a.unknown) < std::tie(b.subdomain, b.row, b.unknown);
   });

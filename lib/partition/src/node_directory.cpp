@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "base/packed.hpp"
 #include "mesh/topology.hpp"
 
 namespace mortise::partition {
@@ -14,21 +15,80 @@ struct Entry {
   Copy copy;
 };
 
+// Appends copies to a message.
+void write(std::span<const Copy> copies, PackedWriter& to)
+{
+  std::vector<Global> subdomains, nodes;
+  std::vector<double> weights;
+  for (const auto& copy : copies) {
+    subdomains.push_back(copy.subdomain);
+    nodes.push_back(copy.node);
+    weights.push_back(copy.weight);
+  }
+  to.integers(subdomains);
+  to.integers(nodes);
+  to.numbers(weights);
+}
+
+std::vector<Copy> read_copies(PackedReader& from)
+{
+  const auto subdomains = from.integers(), nodes = from.integers();
+  const auto weights = from.numbers();
+  std::vector<Copy> copies;
+  for (std::size_t i = 0; i < nodes.size(); ++i) copies.push_back({subdomains[i], static_cast<Local>(nodes[i]), weights[i]});
+  return copies;
+}
+
+// The lists of whole numbers that ranks send each other, and what they got. Collective.
+std::vector<std::vector<Global>> exchange_packed(const std::vector<std::vector<Global>>& lists, const Communicator& comm)
+{
+  std::vector<std::vector<char>> send(lists.size());
+  PackedWriter writer;
+  for (std::size_t r = 0; r < lists.size(); ++r)
+    if (!lists[r].empty()) {
+      writer.integers(lists[r]);
+      send[r] = writer.take();
+    }
+  std::vector<std::vector<Global>> result;
+  for (const auto& part : comm.exchange(send))
+    result.push_back(part.empty() ? std::vector<Global>() : PackedReader(part).integers());
+  return result;
+}
+
 }  // namespace
 
 NodeDirectory::NodeDirectory(const Decomposition& decomposition, const std::vector<std::vector<double>>& weight,
                              const Communicator& comm)
 {
-  std::vector<std::vector<Entry>> send(static_cast<std::size_t>(comm.size()));
+  const auto ranks = static_cast<std::size_t>(comm.size());
+  std::vector<std::vector<Global>> nodes(ranks);
+  std::vector<std::vector<Copy>> copies(ranks);
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const auto& subdomain = decomposition.subdomains[s];
     for (const Local n : surface_.emplace_back(surface_nodes(subdomain))) {
       const Global id = subdomain.mesh.node_id[static_cast<std::size_t>(n)];
-      send[static_cast<std::size_t>(id % comm.size())].push_back({id, {subdomain.id, n, weight[s][static_cast<std::size_t>(n)]}});
+      const auto rank = static_cast<std::size_t>(id) % ranks;
+      nodes[rank].push_back(id);
+      copies[rank].push_back({subdomain.id, n, weight[s][static_cast<std::size_t>(n)]});
     }
   }
+  std::vector<std::vector<char>> send;
+  for (std::size_t r = 0; r < ranks; ++r) {
+    PackedWriter writer;
+    if (!nodes[r].empty()) {
+      writer.integers(nodes[r]);
+      write(copies[r], writer);
+    }
+    send.push_back(writer.take());
+  }
   std::vector<Entry> entries;
-  for (const auto& part : comm.exchange(send)) entries.insert(entries.end(), part.begin(), part.end());
+  for (const auto& part : comm.exchange(send)) {
+    if (part.empty()) continue;
+    PackedReader reader(part);
+    const auto received = reader.integers();
+    const auto of_nodes = read_copies(reader);
+    for (std::size_t i = 0; i < received.size(); ++i) entries.push_back({received[i], of_nodes[i]});
+  }
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     return std::tie(a.node, a.copy.subdomain) < std::tie(b.node, b.copy.subdomain);
   });
@@ -48,8 +108,8 @@ NodeDirectory::Found NodeDirectory::find(std::span<const Global> nodes, const Co
   const auto ranks = static_cast<std::size_t>(comm.size());
   std::vector<std::vector<Global>> asked(ranks);
   for (const Global node : nodes) asked[static_cast<std::size_t>(node) % ranks].push_back(node);
-  const auto questions = comm.exchange(asked);
-  std::vector<std::vector<int>> counts(ranks);
+  const auto questions = exchange_packed(asked, comm);
+  std::vector<std::vector<Global>> counts(ranks);
   std::vector<std::vector<Copy>> copies(ranks);
   for (std::size_t r = 0; r < ranks; ++r)
     for (const Global node : questions[r]) {
@@ -59,11 +119,26 @@ NodeDirectory::Found NodeDirectory::find(std::span<const Global> nodes, const Co
         continue;
       }
       const auto found = entries_[static_cast<std::size_t>(at - nodes_.begin())];
-      counts[r].push_back(static_cast<int>(found.size()));
+      counts[r].push_back(static_cast<Global>(found.size()));
       copies[r].insert(copies[r].end(), found.begin(), found.end());
     }
-  const auto count_answers = comm.exchange(counts);
-  const auto copy_answers = comm.exchange(copies);
+  std::vector<std::vector<char>> answers(ranks);
+  PackedWriter writer;
+  for (std::size_t r = 0; r < ranks; ++r)
+    if (!counts[r].empty()) {
+      writer.integers(counts[r]);
+      write(copies[r], writer);
+      answers[r] = writer.take();
+    }
+  std::vector<std::vector<Global>> count_answers(ranks);
+  std::vector<std::vector<Copy>> copy_answers(ranks);
+  const auto received = comm.exchange(answers);
+  for (std::size_t r = 0; r < ranks; ++r)
+    if (!received[r].empty()) {
+      PackedReader reader(received[r]);
+      count_answers[r] = reader.integers();
+      copy_answers[r] = read_copies(reader);
+    }
   Found result;
   result.offset.push_back(0);
   std::vector<std::size_t> next(ranks, 0), next_copy(ranks, 0);
@@ -122,13 +197,12 @@ void sum_rows(const Decomposition& decomposition, const Interface& interface, Ei
               const Communicator& comm)
 {
   struct Head {
-    Global to;
-    Local node;
+    Local subdomain, node;  // the first copy on that rank
   };
   const auto ranks = static_cast<std::size_t>(comm.size()), here = static_cast<std::size_t>(comm.rank());
   const Global base = decomposition.first[here];
-  // Each copy sends its row to all copies, itself included. Subdomains are numbered rank by rank: what is added in the order of
-  // ranks, and on each of subdomains, is added in the order of subdomains.
+  // Each copy sends its row to every rank that has copies, which adds it to all of them, its own included. Subdomains are
+  // numbered rank by rank: what is added in the order of ranks, and on each of subdomains, is added in the order of subdomains.
   std::vector<std::vector<Head>> heads(ranks);
   std::vector<std::vector<double>> rows(ranks), before;
   const auto each_own = [&](const auto& visit) {
@@ -141,27 +215,34 @@ void sum_rows(const Decomposition& decomposition, const Interface& interface, Ei
   each_own([&](auto& row, std::size_t s, std::size_t i, double* own) {
     Eigen::Map<Eigen::RowVectorXd>(own, width) = row;
     row.setZero();
+    auto last = here;  // copies stand rank by rank
     for (const auto& copy : interface.copies[s][i]) {
       const auto rank = static_cast<std::size_t>(decomposition.rank_of(copy.subdomain));
-      if (rank == here) continue;
-      heads[rank].push_back({copy.subdomain, copy.node});
-      rows[rank].insert(rows[rank].end(), own, own + width);
+      if (rank != here && rank != last) {
+        heads[rank].push_back({static_cast<Local>(copy.subdomain - decomposition.first[rank]), copy.node});
+        rows[rank].insert(rows[rank].end(), own, own + width);
+      }
+      last = rank;
     }
   });
   const auto head_in = comm.exchange(heads);
   const auto row_in = comm.exchange(rows);
-  const auto add = [&](const Head& head, const double* other) {
-    if (auto row = row_at(static_cast<std::size_t>(head.to - base), head.node); row.size() > 0)
-      row += Eigen::Map<const Eigen::RowVectorXd>(other, width);
+  // To the copies on this rank of the i-th shared node of subdomain s.
+  const auto add = [&](std::size_t s, std::size_t i, const double* other) {
+    for (const auto& copy : interface.copies[s][i]) {
+      if (copy.subdomain < base || copy.subdomain >= decomposition.first[here + 1]) continue;
+      if (auto row = row_at(static_cast<std::size_t>(copy.subdomain - base), copy.node); row.size() > 0)
+        row += Eigen::Map<const Eigen::RowVectorXd>(other, width);
+    }
   };
   for (std::size_t r = 0; r < ranks; ++r) {
-    for (std::size_t i = 0; i < head_in[r].size(); ++i)
-      add(head_in[r][i], row_in[r].data() + static_cast<std::size_t>(width) * i);
-    if (r != here) continue;
-    each_own([&](auto&, std::size_t s, std::size_t i, const double* own) {
-      for (const auto& copy : interface.copies[s][i])
-        if (static_cast<std::size_t>(decomposition.rank_of(copy.subdomain)) == here) add({copy.subdomain, copy.node}, own);
-    });
+    for (std::size_t i = 0; i < head_in[r].size(); ++i) {
+      const auto s = static_cast<std::size_t>(head_in[r][i].subdomain);
+      const auto& shared = interface.nodes[s];
+      const auto at = std::ranges::lower_bound(shared, head_in[r][i].node) - shared.begin();
+      add(s, static_cast<std::size_t>(at), row_in[r].data() + static_cast<std::size_t>(width) * i);
+    }
+    if (r == here) each_own([&](auto&, std::size_t s, std::size_t i, const double* own) { add(s, i, own); });
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/packed.hpp"
 #include "mesh/topology.hpp"
 
 namespace mortise::partition {
@@ -38,33 +39,46 @@ void add_border(const Subdomain& subdomain, Local index, std::vector<OuterFace>&
 // Which of the faces belong to no cell of another subdomain: those that a rank, chosen by a corner, is told of once. Collective.
 std::vector<bool> told_once(const std::vector<OuterFace>& border, const Communicator& comm)
 {
-  struct Told {
-    std::array<Global, 4> corners;
-    long long index;
-  };
   const auto ranks = static_cast<std::size_t>(comm.size());
-  std::vector<std::vector<Told>> send(ranks);
-  for (std::size_t i = 0; i < border.size(); ++i)
-    send[static_cast<std::size_t>(border[i].corners[0]) % ranks].push_back({border[i].corners, static_cast<long long>(i)});
+  std::vector<std::vector<Global>> corners(ranks);    // four of each face that a rank is told of
+  std::vector<std::vector<std::size_t>> told(ranks);  // these faces
+  for (std::size_t i = 0; i < border.size(); ++i) {
+    const auto r = static_cast<std::size_t>(border[i].corners[0]) % ranks;
+    corners[r].insert(corners[r].end(), border[i].corners.begin(), border[i].corners.end());
+    told[r].push_back(i);
+  }
+  std::vector<std::vector<char>> send(ranks);
+  PackedWriter writer;
+  for (std::size_t r = 0; r < ranks; ++r)
+    if (!corners[r].empty()) {
+      writer.integers(corners[r]);
+      send[r] = writer.take();
+    }
   struct Received {
-    Told told;
+    std::array<Global, 4> corners;
     std::size_t from;
+    int number;  // among those from there
   };
   std::vector<Received> all;
   const auto received = comm.exchange(send);
   for (std::size_t r = 0; r < ranks; ++r)
-    for (const auto& told : received[r]) all.push_back({told, r});
-  std::sort(all.begin(), all.end(), [](const Received& a, const Received& b) { return a.told.corners < b.told.corners; });
-  std::vector<std::vector<long long>> answer(ranks);
+    if (!received[r].empty()) {
+      const auto four = PackedReader(received[r]).integers();
+      for (std::size_t i = 0; i < four.size(); i += 4)
+        all.push_back({{four[i], four[i + 1], four[i + 2], four[i + 3]}, r, static_cast<int>(i / 4)});
+    }
+  std::sort(all.begin(), all.end(), [](const Received& a, const Received& b) { return a.corners < b.corners; });
+  std::vector<std::vector<int>> answer(ranks);
   for (std::size_t i = 0; i < all.size();) {
     std::size_t end = i + 1;
-    while (end < all.size() && all[end].told.corners == all[i].told.corners) ++end;
-    if (end == i + 1) answer[all[i].from].push_back(all[i].told.index);
+    while (end < all.size() && all[end].corners == all[i].corners) ++end;
+    if (end == i + 1) answer[all[i].from].push_back(all[i].number);
     i = end;
   }
   std::vector<bool> once(border.size(), false);
-  for (const auto& part : comm.exchange(answer))
-    for (const long long i : part) once[static_cast<std::size_t>(i)] = true;
+  const auto answers = comm.exchange(answer);
+  for (std::size_t r = 0; r < ranks; ++r)
+    for (const int number : answers[r]) once[told[r][static_cast<std::size_t>(number)]] = true;
   return once;
 }
 

@@ -1,32 +1,41 @@
 #include "transfer.hpp"
 
-#include <cstring>
 #include <numeric>
-#include <type_traits>
+
+#include "base/packed.hpp"
 
 namespace mortise::partition {
 
 namespace {
 
-template <class T>
-void put(const std::vector<T>& values, std::vector<char>& bytes)
+void put(const std::vector<Point>& points, PackedWriter& to)
 {
-  const auto count = static_cast<unsigned long long>(values.size());
-  const auto at = bytes.size();
-  bytes.resize(at + sizeof count + count * sizeof(T));
-  std::memcpy(bytes.data() + at, &count, sizeof count);
-  if (count > 0) std::memcpy(bytes.data() + at + sizeof count, static_cast<const void*>(values.data()), count * sizeof(T));
+  std::vector<double> numbers;
+  for (const Point& x : points) numbers.insert(numbers.end(), x.begin(), x.end());
+  to.numbers(numbers);
+}
+
+// Of whole numbers or names of cells.
+template <class T>
+void put(const std::vector<T>& values, PackedWriter& to)
+{
+  std::vector<Global> list;
+  for (const T& value : values) list.push_back(static_cast<Global>(value));
+  to.integers(list);
+}
+
+void get(std::vector<Point>& points, PackedReader& from)
+{
+  const auto numbers = from.numbers();
+  for (std::size_t i = 0; i < numbers.size(); i += 3) points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
 }
 
 template <class T>
-void get(std::vector<T>& values, const std::vector<char>& bytes, std::size_t& at)
+void get(std::vector<T>& values, PackedReader& from)
 {
-  unsigned long long count = 0;
-  std::memcpy(&count, bytes.data() + at, sizeof count);
-  at += sizeof count;
-  values.resize(count);
-  if (count > 0) std::memcpy(static_cast<void*>(values.data()), bytes.data() + at, count * sizeof(T));
-  at += count * sizeof(T);
+  const auto list = from.integers();
+  values.resize(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) values[i] = static_cast<T>(list[i]);
 }
 
 // Visits every vector of a mesh in one fixed order.
@@ -69,21 +78,24 @@ std::vector<Global> deal(const std::vector<long long>& weight, const std::vector
 
 void pack(const Subdomain& subdomain, std::vector<char>& bytes)
 {
-  put(std::vector<Global>{subdomain.id, subdomain.body, subdomain.skin ? 1 : 0}, bytes);
-  for (const auto* mesh : {&subdomain.mesh, &subdomain.inside}) for_each_part(*mesh, [&](const auto& part) { put(part, bytes); });
+  PackedWriter writer;
+  writer.integers(std::vector<Global>{subdomain.id, subdomain.body, subdomain.skin ? 1 : 0});
+  for (const auto* mesh : {&subdomain.mesh, &subdomain.inside})
+    for_each_part(*mesh, [&](const auto& part) { put(part, writer); });
+  const auto message = writer.take();
+  bytes.insert(bytes.end(), message.begin(), message.end());
 }
 
 std::vector<Subdomain> unpack(const std::vector<char>& bytes)
 {
   std::vector<Subdomain> result;
-  for (std::size_t at = 0; at < bytes.size();) {
+  for (PackedReader reader(bytes); !reader.at_end();) {
     Subdomain subdomain;
-    std::vector<Global> head;
-    get(head, bytes, at);
+    const auto head = reader.integers();
     subdomain.id = head[0];
     subdomain.body = static_cast<int>(head[1]);
     subdomain.skin = head[2] != 0;
-    for (auto* mesh : {&subdomain.mesh, &subdomain.inside}) for_each_part(*mesh, [&](auto& part) { get(part, bytes, at); });
+    for (auto* mesh : {&subdomain.mesh, &subdomain.inside}) for_each_part(*mesh, [&](auto& part) { get(part, reader); });
     result.push_back(std::move(subdomain));
   }
   return result;

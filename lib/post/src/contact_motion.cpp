@@ -35,13 +35,10 @@ Point tangential_jump(const constraint::Contacts& contacts, const constraint::Co
   return jump - jump.dot(point.normal) * point.normal;
 }
 
-}  // namespace
-
 std::vector<Warning> long_slides(std::span<const contact::Pair> pairs, const constraint::Contacts& contacts,
-                                 std::span<const contact::ContactNodeState> states, const partition::Decomposition& decomposition,
-                                 const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
+                                 std::span<const contact::ContactNodeState> states,
+                                 const std::unordered_map<Global, Nodal>& nodes, int dimension, const Communicator& comm)
 {
-  const auto nodes = nodes_at_contact(pairs, contacts, states, decomposition, displacement, comm);
   std::vector<Found> longest(pairs.size()), parts(pairs.size());  // slide; slide over size of the face
   std::vector<double> closed(pairs.size(), 0.0);                  // nodes
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -60,7 +57,7 @@ std::vector<Warning> long_slides(std::span<const contact::Pair> pairs, const con
   comm.sum_in_place(closed);
   // Of the corners of one facet: what is round turns until it stands on it.
   constexpr double part_on_a_facet = 0.1;
-  const double corners = decomposition.catalogue.dimension;
+  const double corners = dimension;
   std::vector<Warning> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const bool on_a_facet = closed[c] <= corners;
@@ -82,8 +79,6 @@ std::vector<Warning> long_slides(std::span<const contact::Pair> pairs, const con
   }
   return worst(std::move(result), "contacts");
 }
-
-namespace {
 
 // Of the secondary side to the primary one, which is an obstacle or another body; none of a body in contact with itself.
 Point relative_turn(const contact::Pair& pair, const Patch& patch, const std::vector<BodyMotion>& motions)
@@ -174,22 +169,10 @@ std::string text_of(const Roll& roll, const std::string& body, const std::string
       body, roll.way, contact, spell(patch.centre), roll.width, roll.moment);
 }
 
-}  // namespace
-
-std::vector<Warning> facet_turns(std::span<const contact::Pair> pairs, const constraint::Contacts& contacts,
-                                 std::span<const contact::ContactNodeState> states, const partition::Decomposition& decomposition,
-                                 fem::Kinematics kinematics, const std::vector<Eigen::VectorXd>& displacement,
-                                 const Communicator& comm)
+std::vector<Warning> facet_turns(std::span<const contact::Pair> pairs, const mesh::Catalogue& catalogue,
+                                 const std::vector<Patch>& patches, const std::vector<BodyMotion>& motions)
 {
   constexpr double part_of_angle = 0.005, rigid = 10;
-  if (kinematics == fem::Kinematics::axisymmetric) return {};
-  const auto nodes = nodes_at_contact(pairs, contacts, states, decomposition, displacement, comm);
-  const auto patches = pressing_patches(pairs, contacts, states, nodes, decomposition.catalogue.dimension, comm);
-  const auto some_may = [](const Patch& patch) {
-    return std::ranges::any_of(patch.sides, [&](const Facets& side) { return may_roll(patch, side); });
-  };
-  if (std::ranges::none_of(patches, some_may)) return {};
-  const auto motions = rigid_motions(decomposition, kinematics, displacement, comm);
   std::vector<Warning> result;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& patch = patches[c];
@@ -199,7 +182,7 @@ std::vector<Warning> facet_turns(std::span<const contact::Pair> pairs, const con
       const auto& motion = motions[static_cast<std::size_t>(side.body)];
       const double angle = rolls_by(patch, side, turn);
       if (!(angle > part_of_angle * side.flattest) || !(motion.turning > rigid * motion.rest)) continue;
-      const auto& name = decomposition.catalogue.bodies[static_cast<std::size_t>(side.body)].name;
+      const auto& name = catalogue.bodies[static_cast<std::size_t>(side.body)].name;
       Warning w{"facet_turn",
                 fmt::format("body \"{}\" turns by {:.3g} in contact {} at {}, which presses on less than a face's width: if "
                             "nothing else stops it, what is round turns until it stands on facets of its mesh, {:.3g} apart; "
@@ -218,16 +201,9 @@ std::vector<Warning> facet_turns(std::span<const contact::Pair> pairs, const con
   return worst(std::move(result), "bodies");
 }
 
-std::vector<Warning> rolled_contacts(std::span<const contact::Pair> pairs, const constraint::Contacts& contacts,
-                                     std::span<const contact::ContactNodeState> states,
-                                     const partition::Decomposition& decomposition, fem::Kinematics kinematics,
-                                     const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
+std::vector<Warning> rolled_contacts(std::span<const contact::Pair> pairs, const mesh::Catalogue& catalogue,
+                                     const std::vector<Patch>& patches, const std::vector<BodyMotion>& motions)
 {
-  if (kinematics == fem::Kinematics::axisymmetric) return {};
-  const auto nodes = nodes_at_contact(pairs, contacts, states, decomposition, displacement, comm);
-  const auto patches = pressing_patches(pairs, contacts, states, nodes, decomposition.catalogue.dimension, comm);
-  if (std::ranges::none_of(patches, [](const Patch& patch) { return patch.force > 0; })) return {};
-  const auto motions = rigid_motions(decomposition, kinematics, displacement, comm);
   std::vector<Point> moments(motions.size(), Point::Zero());  // of each body
   for (const auto& patch : patches)
     for (const auto& side : patch.sides)
@@ -241,7 +217,7 @@ std::vector<Warning> rolled_contacts(std::span<const contact::Pair> pairs, const
         const Point turn = &side == &patch.sides[0] ? of_secondary : Point(-of_secondary);
         const auto roll = roll_of(patch, side, k, turn, moments[static_cast<std::size_t>(side.body)]);
         if (!roll) continue;
-        const auto& body = decomposition.catalogue.bodies[static_cast<std::size_t>(side.body)].name;
+        const auto& body = catalogue.bodies[static_cast<std::size_t>(side.body)].name;
         Warning w{"rolled_contact", text_of(*roll, body, pairs[c].options.name, patch),
                   "draw the bodies nearer to where they come to rest, or take no such forces from the results"};
         w.at = patch.centre;
@@ -253,6 +229,25 @@ std::vector<Warning> rolled_contacts(std::span<const contact::Pair> pairs, const
       }
   }
   return worst(std::move(result), "bodies");
+}
+
+}  // namespace
+
+std::vector<Warning> slides_and_rolls(std::span<const contact::Pair> pairs, const constraint::Contacts& contacts,
+                                      std::span<const contact::ContactNodeState> states,
+                                      const partition::Decomposition& decomposition, fem::Kinematics kinematics,
+                                      const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
+{
+  const auto& catalogue = decomposition.catalogue;
+  const auto nodes = nodes_at_contact(pairs, contacts, states, decomposition, displacement, comm);
+  auto result = long_slides(pairs, contacts, states, nodes, catalogue.dimension, comm);
+  if (kinematics == fem::Kinematics::axisymmetric) return result;
+  const auto patches = pressing_patches(pairs, contacts, states, nodes, catalogue.dimension, comm);
+  if (std::ranges::none_of(patches, [](const Patch& patch) { return patch.force > 0; })) return result;
+  const auto motions = rigid_motions(decomposition, kinematics, displacement, comm);
+  std::ranges::move(facet_turns(pairs, catalogue, patches, motions), std::back_inserter(result));
+  std::ranges::move(rolled_contacts(pairs, catalogue, patches, motions), std::back_inserter(result));
+  return result;
 }
 
 }  // namespace mortise::post

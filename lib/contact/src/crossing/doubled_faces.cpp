@@ -4,6 +4,7 @@
 #include <limits>
 #include <tuple>
 
+#include "crossing/near_itself.hpp"
 #include "pairing/skin.hpp"
 #include "search/boxes.hpp"
 
@@ -31,7 +32,8 @@ struct TwoFaces {
   auto operator<=>(const TwoFaces&) const = default;
 };
 
-// Each rank gets the faces in its parts of the line, and what lies next to them. Collective.
+// All faces of this rank, and those in its parts of the line, and next to them, that come near faces of their body on another
+// rank. Collective.
 std::vector<MiddleOfFace> middles_by_place(const mesh::Surface& skin, const Communicator& comm)
 {
   std::vector<MiddleOfFace> mine;
@@ -51,15 +53,16 @@ std::vector<MiddleOfFace> middles_by_place(const mesh::Surface& skin, const Comm
   const auto ranks = static_cast<std::size_t>(comm.size());
   const double width = std::max((high - low) / (buckets_of_rank * comm.size()), 2 * widest);
   std::vector<std::vector<MiddleOfFace>> send(ranks);
-  for (const auto& m : mine) {
+  for (const std::size_t f : near_other_ranks(skin, one_place, comm)) {
+    const auto& m = mine[f];
     const auto bucket = [&](double along) { return static_cast<std::size_t>(std::max(0.0, (along - low) / width)); };
     const std::size_t own = bucket(m.along), before = bucket(m.along - widest);
-    send[own % ranks].push_back(m);
-    if (before % ranks != own % ranks) send[before % ranks].push_back(m);
+    const auto here = static_cast<std::size_t>(comm.rank());
+    if (own % ranks != here) send[own % ranks].push_back(m);
+    if (before % ranks != own % ranks && before % ranks != here) send[before % ranks].push_back(m);
   }
-  std::vector<MiddleOfFace> all;
-  for (const auto& part : comm.exchange(send)) all.insert(all.end(), part.begin(), part.end());
-  return all;
+  for (const auto& part : comm.exchange(send)) mine.insert(mine.end(), part.begin(), part.end());
+  return mine;
 }
 
 // Faces of one body with their middles at one place, over all ranks. Collective.

@@ -362,7 +362,7 @@ std::vector<Interpenetration> find_interpenetrations(const mesh::Surface& before
   drop_contacts(deep);
   if (!comm.any(!deep.empty())) return {};
   // Facets of bodies that fit cross before anything moves.
-  const auto points = gather(same_faces(before, near), kinematics, comm).points;
+  const auto points = gather_points(same_faces(before, near), comm);
   auto deep_before = deep_places(skin, edges, points, places, {range.least, 2 * range.largest}, comm);
   drop_contacts(deep_before);
   const auto deepest = deepest_facets(deep_before, comm);

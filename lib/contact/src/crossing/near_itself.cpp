@@ -115,6 +115,19 @@ void pairs_that_may_cross(const MovedFaces& all, std::size_t first, std::size_t 
   }
 }
 
+// Of each body, up to the last that has a face, whether faces of several ranks are its; `body`: of each face of this rank.
+// Collective.
+std::vector<char> on_several_ranks(std::span<const int> body, const Communicator& comm)
+{
+  const int most = body.empty() ? -1 : std::ranges::max(body);
+  std::vector<double> ranks(static_cast<std::size_t>(comm.max(static_cast<long long>(most)) + 1), 0.0);
+  for (const int b : body) ranks[at(b)] = 1;
+  comm.sum_in_place(ranks);
+  std::vector<char> result;
+  for (const double count : ranks) result.push_back(count > 1);
+  return result;
+}
+
 // Faces that may meet a part of their body that another rank has. Collective.
 std::vector<std::size_t> near_other_ranks(const MovedFaces& faces, const Communicator& comm)
 {
@@ -122,8 +135,10 @@ std::vector<std::size_t> near_other_ranks(const MovedFaces& faces, const Communi
     std::array<std::array<double, 3>, 6> corners;
     int body, rank;
   };
+  const auto shared = on_several_ranks(faces.body, comm);
   std::map<int, std::vector<int>> of_body;
-  for (std::size_t f = 0; f < faces.faces.size(); ++f) of_body[faces.body[f]].push_back(static_cast<int>(f));
+  for (std::size_t f = 0; f < faces.faces.size(); ++f)
+    if (shared[at(faces.body[f])]) of_body[faces.body[f]].push_back(static_cast<int>(f));
   std::vector<Box> boxes;
   for (const auto& motion : faces.motion) boxes.push_back(motion.now);
   std::vector<Part> parts;
@@ -179,7 +194,7 @@ std::vector<std::size_t> near_itself(const mesh::Surface& before, const mesh::Su
   if (comm.size() > 1) {
     const auto seam = near_other_ranks(mine, comm);
     const Skin skin = gather_skin(part_of(now, seam), kinematics, comm);
-    const auto points = gather(part_of(before, seam), kinematics, comm).points;
+    const auto points = gather_points(part_of(before, seam), comm);
     const MovedFaces all(points, skin.side.points, skin.side.faces, skin.body);
     std::vector<Global> crossing;
     pairs_that_may_cross(all, static_cast<std::size_t>(comm.rank()), static_cast<std::size_t>(comm.size()),

@@ -300,7 +300,7 @@ struct GatheredSkin {
 GatheredSkin gather_both(const mesh::Surface& before, const mesh::Surface& now, const std::vector<std::size_t>& chosen,
                          fem::Kinematics kinematics, const Communicator& comm)
 {
-  return {gather_skin(part_of(now, chosen), kinematics, comm), gather(part_of(before, chosen), kinematics, comm).points};
+  return {gather_skin(part_of(now, chosen), kinematics, comm), gather_points(part_of(before, chosen), comm)};
 }
 
 }  // namespace

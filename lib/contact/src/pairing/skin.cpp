@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 
 #include "search/boxes.hpp"
 
@@ -129,19 +130,9 @@ mesh::Surface near_others(const mesh::Surface& skin, const Lengths& lengths, con
 
 Skin gather_skin(const mesh::Surface& near, fem::Kinematics kinematics, const Communicator& comm)
 {
-  struct Owner {
-    Global face;
-    int body;
-  };
-  std::vector<Owner> owners;
-  for (std::size_t f = 0; f < near.faces.size(); ++f) owners.push_back({near.face_id[f], near.body[f]});
-  owners = comm.all_gather(owners);
-  std::sort(owners.begin(), owners.end(), [](const Owner& a, const Owner& b) { return a.face < b.face; });
-  Skin skin{gather(near, kinematics, comm), {}, {}, {}, {}, {}, {}, {}, {}};
-  for (const auto& owner : owners) {
-    skin.face_id.push_back(owner.face);
-    skin.body.push_back(owner.body);
-  }
+  Skin skin;
+  std::tie(skin.side, skin.body) = gather_with_bodies(near, kinematics, comm);
+  skin.face_id = skin.side.face_id;
   const auto& faces = skin.side.faces;
   for (std::size_t f = 0; f < faces.size(); ++f) {
     FaceGeometry corners{mesh::first_order(faces.type[f]), {}};

@@ -101,8 +101,7 @@ Side deliver(const mesh::Surface& surface, const std::vector<Box>& boxes, const 
              const Communicator& comm)
 {
   const auto ranks = static_cast<std::size_t>(comm.size());
-  std::vector<std::vector<SentFace>> sent_faces(ranks);
-  std::vector<std::vector<SentNode>> sent_nodes(ranks);
+  std::vector<std::vector<char>> send(ranks);
   std::vector<std::vector<std::size_t>> chosen(ranks);
   std::vector<int> met;
   for (std::size_t f = 0; f < boxes.size(); ++f) {
@@ -113,20 +112,23 @@ Side deliver(const mesh::Surface& surface, const std::vector<Box>& boxes, const 
     }
   }
   std::vector<std::size_t> taken(surface.points.size(), ranks);  // by the rank that a node went to last
-  for (std::size_t r = 0; r < ranks; ++r)
+  for (std::size_t r = 0; r < ranks; ++r) {
+    SentSurface to_rank;
     for (const std::size_t f : chosen[r]) {
-      sent_faces[r].push_back(pack_face(surface, f));
-      if (!owner.empty()) sent_faces[r].back().owner = owner[f];
+      to_rank.faces.push_back(pack_face(surface, f));
+      if (!owner.empty()) to_rank.faces.back().mark = owner[f];
       for (const Local n : surface.faces[f]) {
         auto& last = taken[static_cast<std::size_t>(n)];
-        if (last != r) sent_nodes[r].push_back(pack_node(surface, static_cast<std::size_t>(n)));
+        if (last != r) to_rank.nodes.push_back(pack_node(surface, static_cast<std::size_t>(n)));
         last = r;
       }
     }
-  std::vector<SentNode> nodes;
-  for (const auto& part : comm.exchange(sent_nodes)) nodes.insert(nodes.end(), part.begin(), part.end());
-  for (const auto& part : comm.exchange(sent_faces)) faces.insert(faces.end(), part.begin(), part.end());
-  return assemble(std::move(nodes), faces, kinematics);
+    if (!to_rank.faces.empty()) send[r] = pack(to_rank);
+  }
+  SentSurface received;
+  for (const auto& part : comm.exchange(send)) unpack(part, received);
+  faces = std::move(received.faces);
+  return assemble(std::move(received.nodes), faces, kinematics);
 }
 
 }  // namespace
@@ -148,12 +150,11 @@ Share share_out(const Pair& pair, const PairSize& size, fem::Kinematics kinemati
   share.own.assign(share.secondary.points.size(), 0);
   for (std::size_t f = faces.size(); f > 0; --f)
     for (const Local n : share.secondary.faces[f - 1])
-      share.own[static_cast<std::size_t>(n)] = faces[f - 1].owner == comm.rank() ? 1 : 0;
+      share.own[static_cast<std::size_t>(n)] = faces[f - 1].mark == comm.rank() ? 1 : 0;
   if (!pair.primary) {
     find_kinks(share.secondary);
     return share;
   }
-  faces.clear();
   // Rays go twice as far as the search.
   share.primary = deliver(*pair.primary, boxes_of_faces(*pair.primary), shares, parts, {}, 2 * size.reach + round_it, kinematics,
                           faces, comm);

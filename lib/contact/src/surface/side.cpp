@@ -67,6 +67,21 @@ void cut_into_facets(Side& side)
   }
 }
 
+// In the order of their numbers.
+void each_once(std::vector<SentNode>& nodes)
+{
+  std::ranges::sort(nodes, {}, &SentNode::id);
+  nodes.erase(std::ranges::unique(nodes, {}, &SentNode::id).begin(), nodes.end());
+}
+
+// Of all ranks. Collective.
+SentSurface from_all(const SentSurface& mine, const Communicator& comm)
+{
+  SentSurface all;
+  unpack(comm.all_gather(pack(mine)), all);
+  return all;
+}
+
 }  // namespace
 
 FaceGeometry Side::geometry(std::size_t facet) const
@@ -121,25 +136,9 @@ FaceShape Side::shape_in_face(std::size_t facet, const Eigen::Vector4d& shape, c
   return value;
 }
 
-SentNode pack_node(const mesh::Surface& surface, std::size_t node)
-{
-  const Point& x = surface.points[node];
-  return {surface.node_id[node], {x[0], x[1], x[2]}};
-}
-
-SentFace pack_face(const mesh::Surface& surface, std::size_t face)
-{
-  SentFace sent{surface.face_id[face], {-1, -1, -1, -1, -1, -1, -1, -1, -1}, surface.faces.type[face]};
-  const auto local = surface.faces[face];
-  for (std::size_t k = 0; k < local.size(); ++k) sent.nodes[k] = surface.node_id[static_cast<std::size_t>(local[k])];
-  return sent;
-}
-
 Side assemble(std::vector<SentNode> nodes, std::vector<SentFace>& faces, fem::Kinematics kinematics)
 {
-  std::sort(nodes.begin(), nodes.end(), [](const SentNode& a, const SentNode& b) { return a.id < b.id; });
-  nodes.erase(std::unique(nodes.begin(), nodes.end(), [](const SentNode& a, const SentNode& b) { return a.id == b.id; }),
-              nodes.end());
+  each_once(nodes);
   std::sort(faces.begin(), faces.end(), [](const SentFace& a, const SentFace& b) { return a.id < b.id; });
 
   Side side;
@@ -163,12 +162,33 @@ Side assemble(std::vector<SentNode> nodes, std::vector<SentFace>& faces, fem::Ki
 
 Side gather(const mesh::Surface& surface, fem::Kinematics kinematics, const Communicator& comm)
 {
-  std::vector<SentNode> nodes;
-  for (std::size_t i = 0; i < surface.node_id.size(); ++i) nodes.push_back(pack_node(surface, i));
-  std::vector<SentFace> faces;
-  for (std::size_t f = 0; f < surface.faces.size(); ++f) faces.push_back(pack_face(surface, f));
-  faces = comm.all_gather(faces);
-  return assemble(comm.all_gather(nodes), faces, kinematics);
+  return gather_with_bodies(surface, kinematics, comm).first;
+}
+
+std::pair<Side, std::vector<int>> gather_with_bodies(const mesh::Surface& surface, fem::Kinematics kinematics,
+                                                     const Communicator& comm)
+{
+  SentSurface mine;
+  for (std::size_t i = 0; i < surface.node_id.size(); ++i) mine.nodes.push_back(pack_node(surface, i));
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    mine.faces.push_back(pack_face(surface, f));
+    if (!surface.body.empty()) mine.faces.back().mark = surface.body[f];
+  }
+  auto all = from_all(mine, comm);
+  std::pair<Side, std::vector<int>> result{assemble(std::move(all.nodes), all.faces, kinematics), {}};
+  for (const auto& face : all.faces) result.second.push_back(face.mark);
+  return result;
+}
+
+std::vector<Point> gather_points(const mesh::Surface& surface, const Communicator& comm)
+{
+  SentSurface mine;
+  for (std::size_t i = 0; i < surface.node_id.size(); ++i) mine.nodes.push_back(pack_node(surface, i));
+  auto all = from_all(mine, comm);
+  each_once(all.nodes);
+  std::vector<Point> points;
+  for (const auto& node : all.nodes) points.emplace_back(node.x[0], node.x[1], node.x[2]);
+  return points;
 }
 
 }  // namespace mortise::contact

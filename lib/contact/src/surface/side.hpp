@@ -9,6 +9,7 @@
 #include "fem/options.hpp"
 #include "integrals/overlap.hpp"
 #include "mesh/mesh.hpp"
+#include "surface/sent_surface.hpp"
 
 namespace mortise::contact {
 
@@ -58,24 +59,16 @@ struct Side {
   FaceShape shape_in_face(std::size_t facet, const Eigen::Vector4d& shape, const Frame& frame, const Plane& at) const;
 };
 
-/// Nodes and faces of a surface as plain bytes, to be sent.
-struct SentNode {
-  Global id;
-  std::array<double, 3> x;
-};
-struct SentFace {
-  Global id;
-  std::array<Global, 9> nodes;  ///< -1: none
-  mesh::CellType type;
-  int owner = 0;  ///< the rank whose share it is in; see share.hpp
-};
-SentNode pack_node(const mesh::Surface& surface, std::size_t node);
-SentFace pack_face(const mesh::Surface& surface, std::size_t face);
-
 /// A side of these nodes, which may come more than once, and faces; `faces` are brought in order. Kinks are not looked for.
 Side assemble(std::vector<SentNode> nodes, std::vector<SentFace>& faces, fem::Kinematics kinematics);
 
 /// The whole surface on every rank, without kinks. Collective.
 Side gather(const mesh::Surface& surface, fem::Kinematics kinematics, const Communicator& comm);
+/// With the body of each face.
+std::pair<Side, std::vector<int>> gather_with_bodies(const mesh::Surface& surface, fem::Kinematics kinematics,
+                                                     const Communicator& comm);
+
+/// The points of that side alone. Collective.
+std::vector<Point> gather_points(const mesh::Surface& surface, const Communicator& comm);
 
 }  // namespace mortise::contact
