@@ -29,17 +29,19 @@ double largest_radius(const FeasibleSet& set, const Communicator& comm)
 }
 
 // Rows of G that no free direction feels make the matrix singular; a trace of G G' does no harm, for sweeps are repeated.
-void factorize(CoarseMatrix& matrix, const std::vector<DowndateBlock>& downdates)
+CoarseMatrix::Factor factorize(CoarseMatrix& matrix, const std::vector<DowndateBlock>& downdates)
 {
-  for (double regularisation = 1e-13; !matrix.factorize(downdates, regularisation); regularisation *= 100)
+  for (double regularisation = 1e-13;; regularisation *= 100) {
+    if (auto factor = matrix.factorize(downdates, regularisation)) return std::move(*factor);
     if (regularisation > 1e-3) throw Error(ExitStatus::not_converged, "the coarse matrix of an active set cannot be factorized");
+  }
 }
 
 }  // namespace
 
 ActiveSet::ActiveSet(Projector& projector, const FeasibleSet& set, const Vector& argument, double step,
                      std::span<const double> stiffness, double active_set_tolerance, bool coupled)
-    : equality_(projector.equality()), matrix_(projector.matrix()), trial_matrix_(&matrix_)
+    : equality_(projector.equality())
 {
   const auto w = view(argument);
   std::vector<DowndateBlock> downdates;
@@ -79,7 +81,7 @@ ActiveSet::ActiveSet(Projector& projector, const FeasibleSet& set, const Vector&
     block.index = {slips_[i].index[0], slips_[i].index[1], -1};
     block.matrix.topLeftCorner<2, 2>() = Eigen::Matrix2d::Identity() - weights_[i] * weights_[i] * tangent * tangent.transpose();
   }
-  factorize(matrix_, downdates);
+  factor_ = factorize(projector.matrix(), downdates);
   if (!coupled || equality_.communicator().sum(static_cast<long long>(couplings_.size())) == 0) return;
   // I - T w^2 T': what I - w^2 Pi takes away, less the rest of (1, c)(1, c)'.
   for (const auto& coupling : couplings_) {
@@ -89,8 +91,7 @@ ActiveSet::ActiveSet(Projector& projector, const FeasibleSet& set, const Vector&
     block.matrix = -e * e.transpose();
     block.matrix(1, 1) = 0;
   }
-  trial_matrix_ = &projector.trial_matrix();
-  factorize(*trial_matrix_, downdates);
+  trial_factor_ = factorize(projector.trial_matrix(), downdates);
 }
 
 void ActiveSet::restrict(Vector& x, int power) const
@@ -111,7 +112,7 @@ Vector ActiveSet::reduce(Vector& x) const
   Vector part(x, Teuchos::Copy);
   for (int repeat = 0; repeat < 2 && equality_.size() > 0; ++repeat) {
     restrict(part, 2);
-    equality_.add_transpose(-1, matrix_.solve(equality_.apply(part)), x);
+    equality_.add_transpose(-1, factor_->solve(equality_.apply(part)), x);
     part.assign(x);
   }
   restrict(part, 0);
@@ -161,8 +162,9 @@ void ActiveSet::project_trial(Vector& x, const Vector& constrained) const
   x.update(1, constrained, 1);
   if (equality_.size() == 0) return;
   Vector part(x.getMap());
+  const auto& factor = trial_factor_ ? *trial_factor_ : *factor_;
   for (int repeat = 0; repeat < 2; ++repeat) {
-    const Eigen::VectorXd nu = trial_matrix_->solve(equality_.apply(x));
+    const Eigen::VectorXd nu = factor.solve(equality_.apply(x));
     part.putScalar(0);
     equality_.add_transpose(1, nu, part);
     extend_transpose(part);
@@ -194,7 +196,7 @@ void ActiveSet::sweep(Vector& x, bool direction, int sweeps) const
   if (equality_.size() == 0) return;
   for (int repeat = 0; repeat < sweeps; ++repeat) {
     if (!direction) restrict(x, 2);
-    const Eigen::VectorXd nu = matrix_.solve(equality_.apply(x));
+    const Eigen::VectorXd nu = factor_->solve(equality_.apply(x));
     restrict(x, -2);
     equality_.add_transpose(-1, nu, x);
     restrict(x, direction ? 2 : 0);

@@ -1,6 +1,7 @@
 #include "qp/coarse_matrix.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "base/error.hpp"
 #include "base/submatrix.hpp"
@@ -96,8 +97,7 @@ void CoarseMatrix::place(std::span<const BlockIndex> blocks)
     }
     for (std::size_t j = 0; j < rows.size(); ++j) {
       int at = changing_.outerIndexPtr()[rows[j]];
-      for (std::size_t i = j; i < rows.size(); ++i)
-        block.position.push_back(at = position_of(changing_, rows[i], rows[j], at));
+      for (std::size_t i = j; i < rows.size(); ++i) block.position.push_back(at = position_of(changing_, rows[i], rows[j], at));
     }
     blocks_.push_back(std::move(block));
   }
@@ -145,16 +145,17 @@ Eigen::VectorXd CoarseMatrix::downdate(std::span<const DowndateBlock> downdates)
   return result;
 }
 
-bool CoarseMatrix::factorize(std::span<const DowndateBlock> downdates, double regularisation)
+std::optional<CoarseMatrix::Factor> CoarseMatrix::factorize(std::span<const DowndateBlock> downdates, double regularisation)
 {
-  if (touched_.empty() && dense_) return true;
+  ++factorizations_;
+  if (touched_.empty() && dense_) return Factor(*this, {});
   const SparseMatrix& gram = equality_.gram();
   const Eigen::VectorXd change = downdate(downdates);
   if (!dense_) {
     std::copy(whole_.valuePtr(), whole_.valuePtr() + whole_.nonZeros(), matrix_.valuePtr());
     for (std::size_t i = 0; i < in_whole_.size(); ++i) matrix_.valuePtr()[in_whole_[i]] -= change[static_cast<Eigen::Index>(i)];
     for (const int i : touched_) matrix_.coeffRef(i, i) += regularisation * gram.coeff(i, i);
-    return factor_->factorize(matrix_);
+    return factor_->factorize(matrix_) ? std::optional(Factor(*this, {})) : std::nullopt;
   }
   Eigen::MatrixXd schur = schur_;
   Eigen::Index next = 0;
@@ -165,24 +166,27 @@ bool CoarseMatrix::factorize(std::span<const DowndateBlock> downdates, double re
     const auto at = static_cast<Eigen::Index>(i);
     schur(at, at) += regularisation * gram.coeff(touched_[i], touched_[i]);
   }
-  if (!schur_factor_) schur_factor_.emplace();
-  schur_factor_->compute(schur);
-  return schur_factor_->info() == Eigen::Success;
+  Factor factor(*this, Eigen::LLT<Eigen::MatrixXd>(schur));
+  return factor.schur_.info() == Eigen::Success ? std::optional(std::move(factor)) : std::nullopt;
 }
 
-Eigen::VectorXd CoarseMatrix::solve(const Eigen::VectorXd& r) const
+Eigen::VectorXd CoarseMatrix::Factor::solve(const Eigen::VectorXd& r) const
 {
-  if (!dense_) return factor_->solve(r);
-  if (others_.empty()) return touched_.empty() ? r : Eigen::VectorXd(schur_factor_->solve(r));
+  const auto &touched = matrix_->touched_, &others = matrix_->others_;
+  if (!matrix_->dense_) {
+    if (number_ != matrix_->factorizations_) throw std::logic_error("the coarse matrix has been factorized anew since");
+    return matrix_->factor_->solve(r);
+  }
+  if (others.empty()) return touched.empty() ? r : Eigen::VectorXd(schur_.solve(r));
   Eigen::VectorXd result(r.size());
-  const Eigen::VectorXd inner = factor_->solve(Eigen::VectorXd(r(others_)));
-  if (touched_.empty()) {
-    result(others_) = inner;
+  const Eigen::VectorXd inner = matrix_->factor_->solve(Eigen::VectorXd(r(others)));
+  if (touched.empty()) {
+    result(others) = inner;
     return result;
   }
-  const Eigen::VectorXd outer = schur_factor_->solve(r(touched_) - coupling_ * inner);
-  result(touched_) = outer;
-  result(others_) = inner - factor_->solve(Eigen::VectorXd(coupling_.transpose() * outer));
+  const Eigen::VectorXd outer = schur_.solve(r(touched) - matrix_->coupling_ * inner);
+  result(touched) = outer;
+  result(others) = inner - matrix_->factor_->solve(Eigen::VectorXd(matrix_->coupling_.transpose() * outer));
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "base/interruption.hpp"
 #include "base/submatrix.hpp"
@@ -64,40 +65,44 @@ JoinedStiffness::JoinedStiffness(const SparseMatrices& matrices, std::vector<Blo
   factor_ = std::make_unique<Cholesky>(lower_);
 }
 
-bool JoinedStiffness::factorize(std::vector<MatrixXd> z, const std::vector<MatrixXd>& near)
+std::optional<JoinedStiffness::Factor> JoinedStiffness::factorize(std::vector<MatrixXd> z, const std::vector<MatrixXd>& near)
 {
   stop_if_requested();
   std::copy(stiffness_.valuePtr(), stiffness_.valuePtr() + stiffness_.nonZeros(), lower_.valuePtr());
-  symmetric_ = true;
+  bool symmetric = true;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const auto& part = parts_[k];
-    symmetric_ = symmetric_ && z[k] == near[k];
+    symmetric = symmetric && z[k] == near[k];
     const MatrixXd times = near[k] * part.b;
     auto at = part.position.begin();
     for (Index j = 0; j < part.b.cols(); ++j)
       for (Index i = j; i < part.b.cols(); ++i) lower_.valuePtr()[*at++] += part.b.col(i).dot(times.col(j));
   }
-  z_ = std::move(z);
-  return factor_->factorize(lower_);
+  ++factorizations_;
+  return factor_->factorize(lower_) ? std::optional(Factor(*this, std::move(z), symmetric)) : std::nullopt;
 }
 
-VectorXd JoinedStiffness::apply(const VectorXd& u) const
+VectorXd JoinedStiffness::Factor::apply(const VectorXd& u) const
 {
-  VectorXd result = stiffness_.selfadjointView<Eigen::Lower>() * u;
-  const VectorXd jump = matrices_.b * u;
+  const auto& b = stiffness_->matrices_.b;
+  const auto& blocks = stiffness_->blocks_;
+  VectorXd result = stiffness_->stiffness_.selfadjointView<Eigen::Lower>() * u;
+  const VectorXd jump = b * u;
   VectorXd force(jump.size());
-  for (std::size_t k = 0; k < blocks_.size(); ++k) force(blocks_[k]) = z_[k] * jump(blocks_[k]);
-  result += matrices_.b.transpose() * force;
+  for (std::size_t i = 0; i < blocks.size(); ++i) force(blocks[i]) = z_[i] * jump(blocks[i]);
+  result += b.transpose() * force;
   return result;
 }
 
-VectorXd JoinedStiffness::solve(const VectorXd& r) const
+VectorXd JoinedStiffness::Factor::solve(const VectorXd& r) const
 {
+  if (number_ != stiffness_->factorizations_) throw std::logic_error("the stiffness has been factorized anew since");
+  const Cholesky& near = *stiffness_->factor_;
   const double size = r.norm();
-  if (symmetric_ || !(size > 0) || !std::isfinite(size)) return factor_->solve(r);
+  if (symmetric_ || !(size > 0) || !std::isfinite(size)) return near.solve(r);
   VectorXd u = VectorXd::Zero(r.size());
   const auto turned = [&](VectorXd& v) {
-    v = factor_->solve(v);
+    v = near.solve(v);
     return apply(v);
   };
   const double left = gmres(turned, r, reduction_of_gmres * size, most_steps_of_gmres, u);

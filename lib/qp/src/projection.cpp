@@ -222,11 +222,13 @@ Projector::Evaluation Projector::minimise(const Given& y, Eigen::VectorXd nu)
   double least = size_of(now), residual = least, regularisation = 1e-1;
   int stalled = 0;
   for (int step = 0; step < max_steps && least > target && now.multiplier_size < unbounded * y.scale; ++step) {
-    if (!matrix_.factorize(downdates(y.set, now.w), std::clamp(regularisation * std::min(residual, 1.0), 1e-14, 1.0))) {
+    const auto factor =
+        matrix_.factorize(downdates(y.set, now.w), std::clamp(regularisation * std::min(residual, 1.0), 1e-14, 1.0));
+    if (!factor) {
       regularisation *= 10;
       continue;
     }
-    const Eigen::VectorXd direction = -matrix_.solve(now.gradient);
+    const Eigen::VectorXd direction = -factor->solve(now.gradient);
     Evaluation next = evaluate(y, now.nu + direction);
     double t = 1;
     if (size_of(next) > 0.5 * residual) {
@@ -270,8 +272,9 @@ void Projector::repair(const Vector& from, const Given& y, Evaluation now, Proje
     if (residual <= 1e2 * target && (residual == 0 || balances_rows(equality_, y.e, point, missing))) break;
     if (now.multiplier_size >= unbounded * y.scale) break;
     Eigen::VectorXd w = view(result.argument)(constrained_);
-    if (!matrix_.factorize(downdates(y.set, w), 1e-14)) break;
-    now.nu -= matrix_.solve(missing);
+    const auto factor = matrix_.factorize(downdates(y.set, w), 1e-14);
+    if (!factor) break;
+    now.nu -= factor->solve(missing);
   }
 }
 
@@ -294,8 +297,9 @@ Eigen::VectorXd Projector::towards_least_residual(const Eigen::VectorXd& e, cons
     };
     Evaluation now = evaluate(nothing, nu);
     for (int step = 0; step < steps && equality_.norm(gradient(now)) > small; ++step) {
-      if (!matrix_.factorize(downdates(set, now.w), epsilon)) return nu;
-      const Eigen::VectorXd direction = -matrix_.solve(gradient(now));
+      const auto inverse = matrix_.factorize(downdates(set, now.w), epsilon);
+      if (!inverse) return nu;
+      const Eigen::VectorXd direction = -inverse->solve(gradient(now));
       const double slope = gradient(now).dot(direction);
       double t = 1;
       Evaluation next = evaluate(nothing, now.nu + direction);
@@ -322,9 +326,10 @@ bool Projector::prove_empty(const Eigen::VectorXd& e, const FeasibleSet& set, Pr
     w = (w.array().abs() < hardly * largest).select(0.0, w) * (unbounded * size / std::max(largest, 1e-300));
     for (auto& value : w)
       if (value == 0) value = std::numeric_limits<double>::min();  // of a bound at 0: kept
-    if (!matrix_.factorize(downdates(set, w), regularisation)) continue;
+    const auto factor = matrix_.factorize(downdates(set, w), regularisation);
+    if (!factor) continue;
     for (int i = 0; i < iterations; ++i) {
-      nu = matrix_.solve(equality_.gram().selfadjointView<Eigen::Lower>() * nu);
+      nu = factor->solve(equality_.gram().selfadjointView<Eigen::Lower>() * nu);
       nu /= std::sqrt(std::max(nu.dot(equality_.gram().selfadjointView<Eigen::Lower>() * nu), 1e-300));
     }
     const auto [gained, felt] = work_and_feeling(e, set, nu, failed.point);

@@ -52,27 +52,41 @@ struct SparseInverse::Data {
   SparseMatrices matrices;
   JoinedStiffness stiffness;
   VectorXd compliance;  // of the rows in the factor
+  JoinedStiffness::Factor factor;
 
+  explicit Data(SparseMatrices given)
+      : matrices(std::move(given)),
+        stiffness(matrices, rows_alone(matrices.b.rows())),
+        compliance(compliance_of(matrices)),
+        factor(factorized(stiffness, compliance))
+  {
+  }
+
+ private:
   static std::vector<JoinedStiffness::Block> rows_alone(Eigen::Index rows)
   {
     std::vector<JoinedStiffness::Block> blocks;
     for (Local i = 0; i < rows; ++i) blocks.push_back({i});
     return blocks;
   }
-  explicit Data(SparseMatrices given)
-      : matrices(std::move(given)), stiffness(matrices, rows_alone(matrices.b.rows())), compliance(matrices.s)
+  static VectorXd compliance_of(const SparseMatrices& matrices)
   {
     const VectorXd diagonal = matrices.k.diagonal();
-    std::vector<Eigen::MatrixXd> z;
+    VectorXd compliance = matrices.s;
     for (int row = 0; row < matrices.b.rows(); ++row) {
       double own = matrices.s[row];
       for (decltype(matrices.b)::InnerIterator it(matrices.b, row); it; ++it) own += it.value() * it.value() / diagonal[it.col()];
       compliance[row] += way_of_inverse * own;
-      z.emplace_back(Eigen::MatrixXd::Constant(1, 1, 1 / compliance[row]));
     }
-    const auto near = z;
-    if (!stiffness.factorize(std::move(z), near))
-      throw Error(ExitStatus::not_converged, "the stiffness of the bodies is not positive definite to rounding");
+    return compliance;
+  }
+  static JoinedStiffness::Factor factorized(JoinedStiffness& stiffness, const VectorXd& compliance)
+  {
+    std::vector<Eigen::MatrixXd> z;
+    for (const double way : compliance) z.emplace_back(Eigen::MatrixXd::Constant(1, 1, 1 / way));
+    auto factor = stiffness.factorize(z, z);
+    if (!factor) throw Error(ExitStatus::not_converged, "the stiffness of the bodies is not positive definite to rounding");
+    return std::move(*factor);
   }
 };
 
@@ -94,7 +108,7 @@ SparseInverse::Result SparseInverse::solve(const VectorXd& r, const VectorXd& f)
     // K du - B'dx = force, B du + (S + way) dx = jump
     VectorXd load = force;
     load += b.transpose() * jump.cwiseQuotient(data_->compliance);
-    const VectorXd moved = data_->stiffness.solve(load);
+    const VectorXd moved = data_->factor.solve(load);
     jump -= b * moved;
     x += jump.cwiseQuotient(data_->compliance);
     u += moved;

@@ -190,7 +190,8 @@ void SparseSystem::solve(const Guess& guess, const VectorXd& b, const VectorXd& 
     near.push_back(guess.symmetric ? z[k] : MatrixXd(moving.test[k].transpose() * answered(moving.inverse[k]) * moving.test[k]));
     amount.emplace_back(VectorXd::Zero(moving.test[k].rows()));  // what rows share out stays even
   }
-  if (!stiffness_.factorize(std::move(z), near)) {  // states that hold nothing
+  const auto factor = stiffness_.factorize(std::move(z), near);
+  if (!factor) {  // states that hold nothing
     x.setConstant(std::numeric_limits<double>::quiet_NaN());
     return;
   }
@@ -209,7 +210,7 @@ void SparseSystem::solve(const Guess& guess, const VectorXd& b, const VectorXd& 
       change.emplace_back(moving.inverse[k] * lacking);
     }
     const VectorXd pushed = moving.extend(blocks, change, VectorXd::Zero(x.size()));
-    const VectorXd step = stiffness_.solve(missing - matrices_.b.transpose() * pushed), jump = matrices_.b * step;
+    const VectorXd step = factor->solve(missing - matrices_.b.transpose() * pushed), jump = matrices_.b * step;
     for (std::size_t k = 0; k < blocks.size(); ++k)
       amount[k] += change[k] + moving.inverse[k] * (moving.test[k] * jump(blocks[k]));
     exact_u += step.cast<long double>();
@@ -223,34 +224,15 @@ void SparseSystem::solve(const Guess& guess, const VectorXd& b, const VectorXd& 
 // Theta + S of the path, block by block, and what its rows give way besides.
 class SparseSystem::Step : public PathFactor {
  public:
-  Step(const SparseSystem& system, std::span<const Stiffening> entries, std::span<const Local> pinned)
-      : system_(system), theta_(zeros(system.stiffness_.blocks())), inverse_(theta_), pinned_(pinned.begin(), pinned.end())
+  // `inverse`: of theta and what gives way besides.
+  Step(const SparseSystem& system, JoinedStiffness::Factor factor, std::vector<MatrixXd> theta, std::vector<MatrixXd> inverse,
+       std::span<const Local> pinned)
+      : system_(system),
+        factor_(std::move(factor)),
+        theta_(std::move(theta)),
+        inverse_(std::move(inverse)),
+        pinned_(pinned.begin(), pinned.end())
   {
-    const auto& stiffness = system.stiffness_;
-    const auto& blocks = stiffness.blocks();
-    for (const auto& entry : entries) {
-      const auto row = stiffness.in_block(entry.row), column = stiffness.in_block(entry.column);
-      theta_[static_cast<std::size_t>(row.block)](row.within, column.within) += entry.value;
-    }
-    std::vector<MatrixXd> near = theta_;
-    for (std::size_t k = 0; k < blocks.size(); ++k) {
-      theta_[k].diagonal() += system.matrices_.s(blocks[k]);
-      MatrixXd softer = theta_[k];
-      softer.diagonal() += way_of_path * system.own_(blocks[k]);
-      inverse_[k] = softer.inverse();
-      const MatrixXd even = answered(softer);
-      near[k] = even == softer ? inverse_[k] : MatrixXd(even.inverse());
-      near[k] = 0.5 * (near[k] + near[k].transpose()).eval();
-      if (even == softer) inverse_[k] = near[k];
-    }
-    for (const Local i : pinned) {
-      const auto [block, within] = stiffness.in_block(i);
-      for (auto* matrix : {&inverse_[static_cast<std::size_t>(block)], &near[static_cast<std::size_t>(block)]}) {
-        matrix->row(within).setZero();
-        matrix->col(within).setZero();
-      }
-    }
-    if (!system.stiffness_.factorize(inverse_, near)) fail();
   }
 
   PathFactor::Step solve(const VectorXd& forces, const VectorXd& lack, bool roughly) const override
@@ -271,7 +253,7 @@ class SparseSystem::Step : public PathFactor {
       }
       VectorXd load = missing;
       load -= b.transpose() * times(blocks, inverse_, felt);
-      const VectorXd moved = system_.stiffness_.solve(load);
+      const VectorXd moved = factor_.solve(load);
       felt += b * moved;
       step.x += times(blocks, inverse_, felt);
       step.nu += moved;
@@ -281,13 +263,40 @@ class SparseSystem::Step : public PathFactor {
 
  private:
   const SparseSystem& system_;
+  JoinedStiffness::Factor factor_;
   std::vector<MatrixXd> theta_, inverse_;
   std::vector<Local> pinned_;
 };
 
 std::unique_ptr<PathFactor> SparseSystem::factor(std::span<const Stiffening> entries, std::span<const Local> pinned, bool) const
 {
-  return std::make_unique<Step>(*this, entries, pinned);
+  const auto& blocks = stiffness_.blocks();
+  auto theta = zeros(blocks);
+  for (const auto& entry : entries) {
+    const auto row = stiffness_.in_block(entry.row), column = stiffness_.in_block(entry.column);
+    theta[static_cast<std::size_t>(row.block)](row.within, column.within) += entry.value;
+  }
+  std::vector<MatrixXd> inverse = theta, near = theta;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    theta[k].diagonal() += matrices_.s(blocks[k]);
+    MatrixXd softer = theta[k];
+    softer.diagonal() += way_of_path * own_(blocks[k]);
+    inverse[k] = softer.inverse();
+    const MatrixXd even = answered(softer);
+    near[k] = even == softer ? inverse[k] : MatrixXd(even.inverse());
+    near[k] = 0.5 * (near[k] + near[k].transpose()).eval();
+    if (even == softer) inverse[k] = near[k];
+  }
+  for (const Local i : pinned) {
+    const auto [block, within] = stiffness_.in_block(i);
+    for (auto* matrix : {&inverse[static_cast<std::size_t>(block)], &near[static_cast<std::size_t>(block)]}) {
+      matrix->row(within).setZero();
+      matrix->col(within).setZero();
+    }
+  }
+  auto factor = stiffness_.factorize(inverse, near);
+  if (!factor) fail();
+  return std::make_unique<Step>(*this, std::move(*factor), std::move(theta), std::move(inverse), pinned);
 }
 
 }  // namespace mortise::qp

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "dense_operator.hpp"
 
 namespace mortise::qp {
@@ -20,11 +22,12 @@ Eigen::MatrixXd staggered()
 }
 
 // The solution of (G D G') x = r against Eigen's.
-void expect_solved(const Eigen::MatrixXd& g, const Eigen::MatrixXd& d, const CoarseMatrix& matrix)
+void expect_solved(const Eigen::MatrixXd& g, const Eigen::MatrixXd& d, const std::optional<CoarseMatrix::Factor>& factor)
 {
+  ASSERT_TRUE(factor);
   const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(rows, -1, 2);
   const Eigen::VectorXd expected = (g * d * g.transpose()).ldlt().solve(r);
-  EXPECT_LT((matrix.solve(r) - expected).norm(), 1e-11 * expected.norm());
+  EXPECT_LT((factor->solve(r) - expected).norm(), 1e-11 * expected.norm());
 }
 
 class Coarse : public testing::TestWithParam<int> {};
@@ -50,11 +53,9 @@ TEST_P(Coarse, SolvesWhatConstraintsLeave)
     CoarseMatrix matrix(equality, blocks, GetParam());
     EXPECT_EQ(matrix.touched(), constrained == 0 ? 0 : constrained == 7 ? 3 : rows);
     for (int time = 0; time < 2; ++time) {  // nothing of the first stays
-      ASSERT_TRUE(matrix.factorize(downdates, 0));
-      expect_solved(g, d, matrix);
+      expect_solved(g, d, matrix.factorize(downdates, 0));
     }
-    ASSERT_TRUE(matrix.factorize({}, 0));
-    expect_solved(g, Eigen::MatrixXd::Identity(unknowns, unknowns), matrix);
+    expect_solved(g, Eigen::MatrixXd::Identity(unknowns, unknowns), matrix.factorize({}, 0));
   }
 }
 
@@ -83,8 +84,30 @@ TEST_P(Coarse, BlockJoinsRowsThatAreApart)
   const EqualityConstraint equality(local_columns(g, *map), comm);
   CoarseMatrix matrix(equality, blocks, GetParam());
   EXPECT_EQ(matrix.touched(), 3);
-  ASSERT_TRUE(matrix.factorize(downdates, 0));
-  expect_solved(g, d, matrix);
+  expect_solved(g, d, matrix.factorize(downdates, 0));
+}
+
+// A sparse factor gives its memory to the next one; dense ones stand side by side.
+TEST_P(Coarse, AFactorWhoseMemoryWasTakenIsRefused)
+{
+  const Communicator comm;
+  const auto map = even_map(unknowns, comm);
+  const auto g = staggered();
+  std::vector<BlockIndex> blocks;
+  std::vector<DowndateBlock> downdates;
+  for (Local i = 0; i < static_cast<Local>(map->getNodeNumElements()); ++i) {
+    blocks.push_back({i, -1, -1});
+    downdates.emplace_back().index[0] = i;
+    downdates.back().matrix(0, 0) = 0.7;
+  }
+  const EqualityConstraint equality(local_columns(g, *map), comm);
+  CoarseMatrix matrix(equality, blocks, GetParam());
+  const auto first = matrix.factorize(downdates, 0), second = matrix.factorize({}, 0);
+  expect_solved(g, Eigen::MatrixXd::Identity(unknowns, unknowns), second);
+  if (GetParam() == 0)
+    EXPECT_THROW(first->solve(Eigen::VectorXd::Ones(rows)), std::logic_error);
+  else
+    expect_solved(g, 0.3 * Eigen::MatrixXd::Identity(unknowns, unknowns), first);
 }
 
 // All by the Schur complement, and all sparsely but where nothing is touched.

@@ -21,7 +21,7 @@ class ActiveSet {
   /// next to nothing, and where that is free they could be given tension. `coupled`: radii follow the discs' normal unknowns;
   /// then what moves is T x, and what is felt of a gradient is what x feels, so that the active set is not symmetric.
   ///
-  /// Factorizes the coarse matrices of the projector: it is valid until the next projection or active set does so. Throws
+  /// Factorizes the coarse matrices of the projector; where these are sparse it is valid until they are factorized anew. Throws
   /// Error(not_converged) if they have no factor. Collective.
   ActiveSet(Projector& projector, const FeasibleSet& set, const Vector& argument, double step, std::span<const double> stiffness,
             double active_set_tolerance, bool coupled = false);
@@ -51,7 +51,7 @@ class ActiveSet {
   Vector reduce(Vector& x) const;
 
   /// Whether on any rank discs that slip follow their normal unknowns: then project_trial() is another projection than project().
-  bool coupled() const { return trial_matrix_ != &matrix_; }
+  bool coupled() const { return trial_factor_.has_value(); }
   /// Unknowns of this rank that are not free at all, and pairs that are along a tangent alone.
   const std::vector<Local>& fixed() const { return fixed_; }
   const std::vector<SlipDirection>& slips() const { return slips_; }
@@ -71,12 +71,12 @@ class ActiveSet {
   void sweep(Vector& x, bool direction, int sweeps) const;
 
   const EqualityConstraint& equality_;
-  CoarseMatrix& matrix_;
   std::vector<Local> fixed_;
   std::vector<SlipDirection> slips_;
   std::vector<double> weights_;  // of each of these: w
   std::vector<Coupling> couplings_;
-  CoarseMatrix* trial_matrix_;  // of T w^2 T'; matrix_ where nothing is coupled
+  // Of the coarse matrix of w^2 Pi, which the constructor makes in any case; of that of T w^2 T', unless nothing is coupled.
+  std::optional<CoarseMatrix::Factor> factor_, trial_factor_;
 };
 
 }  // namespace mortise::qp

@@ -22,20 +22,36 @@ struct DowndateBlock {
 };
 
 /// Only the rows of G that touch a constrained unknown feel D. With few of them all others are eliminated once and each
-/// factorization is that of a small dense Schur complement; with many the whole is factorized sparsely. Every rank holds it. The
-/// factor stays with the matrix, no object of its own: the sparse one keeps its analysis of the pattern and its memory.
+/// factorization is that of a small dense Schur complement; with many the whole is factorized sparsely. Every rank holds it.
 class CoarseMatrix {
  public:
+  /// (G D G')^-1 for one D. A sparse one uses the matrix's analysis of the pattern and its memory, which the next factorization
+  /// takes: it is valid until then.
+  class Factor {
+   public:
+    /// (G D G')^-1 r; r is over all rows of G, the same on every rank. Throws std::logic_error if it is not valid any more.
+    Eigen::VectorXd solve(const Eigen::VectorXd& r) const;
+
+   private:
+    friend class CoarseMatrix;
+    Factor(const CoarseMatrix& matrix, Eigen::LLT<Eigen::MatrixXd> schur)
+        : matrix_(&matrix), schur_(std::move(schur)), number_(matrix.factorizations_)
+    {
+    }
+
+    const CoarseMatrix* matrix_;
+    Eigen::LLT<Eigen::MatrixXd> schur_;  // of the touched rows, where the matrix is dense and some are
+    long long number_;                   // of the factorization
+  };
+
   /// `blocks`: the unknowns of this rank's constraints, which may be downdated as a whole or in part. `equality` outlives it.
   /// With more than `largest_dense` touched rows, or where the sparse factor is smaller, there is no Schur complement. Throws
   /// Error(no_equilibrium) if the rows that no constraint touches are linearly dependent. Collective.
   CoarseMatrix(const EqualityConstraint& equality, std::span<const BlockIndex> blocks, int largest_dense = 2000);
 
-  /// Factorizes G D G' + `regularisation` diag(G G') over the touched rows. Returns false if that is not positive definite.
+  /// The factor of G D G' + `regularisation` diag(G G') over the touched rows; none if that is not positive definite.
   /// `downdates`: the blocks of this rank. Collective.
-  [[nodiscard]] bool factorize(std::span<const DowndateBlock> downdates, double regularisation);
-  /// (G D G')^-1 r for the matrix that was factorized last; r is over all rows of G, the same on every rank.
-  Eigen::VectorXd solve(const Eigen::VectorXd& r) const;
+  [[nodiscard]] std::optional<Factor> factorize(std::span<const DowndateBlock> downdates, double regularisation);
 
   int touched() const { return static_cast<int>(touched_.size()); }  ///< rows of G with a constrained unknown, over all ranks
 
@@ -60,10 +76,10 @@ class CoarseMatrix {
   bool dense_ = true;
   SparseMatrix whole_, matrix_;       // sparse: G G' with room for what changes, and what is factorized
   std::vector<int> in_whole_;         // sparse: of each entry of changing_, where it stands in these
-  std::unique_ptr<Cholesky> factor_;  // dense: of the rows of others_ alone; else of all
+  std::unique_ptr<Cholesky> factor_;  // dense: of the rows of others_ alone, none without any; else of all
   SparseMatrix coupling_;             // dense: touched x others
   Eigen::MatrixXd schur_;             // dense: with D = I, lower triangle
-  std::optional<Eigen::LLT<Eigen::MatrixXd>> schur_factor_;
+  long long factorizations_ = 0;
 };
 
 }  // namespace mortise::qp
