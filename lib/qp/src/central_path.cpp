@@ -266,7 +266,8 @@ bool CentralPath::advance()
   const double reach = predicted * longest_step(prediction);
   Residual goal = residual(moved(prediction, reach));
   const double centring = std::max(std::pow(std::max(goal.mean(), 0.0) / tau, 3), least_centring);
-  goal.add(reach, now);  // what the step leaves, and would not leave of linear equations
+  goal.add(reach, now);        // what the step leaves, and would not leave of linear equations
+  goal.motions = now.motions;  // these are linear: what the prediction leaves of them is its error
   goal.sides.array() -= centring * tau;
   goal.rounds.array() -= centring * tau;
   const Iterate step = linear.solve(goal, false);

@@ -7,8 +7,10 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "../src/condensed_programme.hpp"
+#include "../src/dense_system.hpp"
 #include "dense_programme.hpp"
 
 namespace mortise::qp {
@@ -114,6 +116,43 @@ TEST(CentralPath, DiscsOfEveryRadiusAndCentre)
     for (auto& disc : discs) disc.radius = std::min(disc.radius, 1e3);
     p.set = FeasibleSet({p.set.bounds().begin(), p.set.bounds().end()}, discs);
     EXPECT_LT(violation(p, point), 1e-6);
+  }
+}
+
+// Predictions that are off by a part of the forces, as those by iterations are.
+class RoughSystem : public DenseSystem {
+ public:
+  using DenseSystem::DenseSystem;
+  std::unique_ptr<PathFactor> factor(std::span<const Stiffening> entries, std::span<const Local> pinned,
+                                     bool symmetric) const override
+  {
+    return std::make_unique<Factor>(DenseSystem::factor(entries, pinned, symmetric));
+  }
+
+ private:
+  struct Factor : PathFactor {
+    explicit Factor(std::unique_ptr<PathFactor> given) : exact(std::move(given)) {}
+    Step solve(const VectorXd& forces, const VectorXd& lack, bool roughly) const override
+    {
+      auto step = exact->solve(forces, lack, roughly);
+      if (roughly) step.x.array() += 1e-3 * forces.norm();
+      return step;
+    }
+    std::unique_ptr<PathFactor> exact;
+  };
+};
+
+TEST(CentralPath, RoughPredictionsLeaveMotionsAlone)
+{
+  for (int seed = 1; seed <= 10; ++seed) {
+    const auto p = contact_alone(seed, 12, 0, 2);
+    const auto matrices = matrices_of(p, MatrixXd::Zero(2, 2));
+    const Eigen::LLT<MatrixXd> factor = p.a.llt();
+    const RoughSystem system(matrices, factor, p.set);
+    CentralPath path(system, p.set, {}, p.b, p.e, VectorXd::Ones(p.b.size()), VectorXd::Zero(2));
+    const auto first = path.distance();
+    for (int step = 0; step < 40 && path.distance().product > 1e-8 * first.product; ++step) path.advance();
+    EXPECT_LT(path.distance().motions, 1e-8 * first.motions) << seed;
   }
 }
 
