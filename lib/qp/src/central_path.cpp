@@ -19,11 +19,35 @@ constexpr double least_product = 1e-3;    // of the mean: what is nearer to the 
 constexpr double shorter = 0.8;           // step, where it leads there,
 constexpr int most_shorter = 40;          // and so often
 constexpr double least_centring = 1e-3;   // tau of the next point over that of this one
+constexpr double near_border = 1e-3;      // of a radius
+constexpr double most_turned = 0.3;       // of the radius: a point near the border may go across,
+constexpr double least_turned = 0.5;      // and so little may be left of its distance from the centre
+constexpr double least_turn = 0.01;       // of the room that is left: what is less is not worth its rounding
 constexpr double no_step = 1e-8;          // as good as none
 
 using Eigen::Index;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
+
+bool is_near_border(double length, double radius)
+{
+  return radius - length < near_border * radius;
+}
+
+// The part of a step (dt, dr) that a point t stays inside of a disc of radius r for.
+double part_inside(const Vector2d& t, const Vector2d& dt, double r, double dr)
+{
+  constexpr double whole = std::numeric_limits<double>::infinity();
+  const double size = t.norm();
+  // (t + a dt)^2 = (r + a dr)^2: a, b and c of a quadratic equation whose c is below zero.
+  const double a = dt.squaredNorm() - dr * dr, b = t.dot(dt) - r * dr, c = (size - r) * (size + r);
+  const double root = std::sqrt(std::max(b * b - a * c, 0.0));
+  const double straight = b > 0 ? -c / (b + root) : a > 0 ? (root - b) / a : whole;
+  if (!is_near_border(size, r)) return straight;
+  const double out = t.dot(dt) / size - dr, across = std::abs(t[0] * dt[1] - t[1] * dt[0]) / size;
+  const double turning = std::min(out > 0 ? (r - size) / out : whole, across > 0 ? most_turned * r / across : whole);
+  return std::max(straight, turning);
+}
 
 }  // namespace
 
@@ -147,22 +171,27 @@ double CentralPath::longest_step(const Iterate& step) const
   for (Index d = 0; d < at_.lambda.size(); ++d) {
     const auto& round = rounds_[static_cast<std::size_t>(d)];
     stop(at_.lambda[d], step.lambda[d]);
-    // (t + a dt)^2 = (r + a dr)^2: a, b and c of a quadratic equation whose c is below zero.
     const Vector2d t = from_centre(round.disc, at_.x), dt = from_centre({round.disc.index}, step.x);
     const double r = radius(round, at_.x), dr = round.coefficient > 0 ? round.coefficient * step.x[round.disc.normal] : 0;
-    const double a = dt.squaredNorm() - dr * dr, b = t.dot(dt) - r * dr, c = (t.norm() - r) * (t.norm() + r);
-    const double root = std::sqrt(std::max(b * b - a * c, 0.0));
-    if (b > 0)
-      length = std::min(length, -c / (b + root));
-    else if (a > 0)
-      length = std::min(length, (root - b) / a);
+    length = std::min(length, part_inside(t, dt, r, dr));
   }
   return length;
 }
 
+// A point near the border of its disc turns round the centre: along the chord it would meet the border the sooner the nearer it
+// is.
 CentralPath::Iterate CentralPath::moved(const Iterate& step, double length) const
 {
-  return {at_.x + length * step.x, at_.nu + length * step.nu, at_.s + length * step.s, at_.lambda + length * step.lambda};
+  Iterate next{at_.x + length * step.x, at_.nu + length * step.nu, at_.s + length * step.s, at_.lambda + length * step.lambda};
+  for (const auto& round : rounds_) {
+    const Vector2d t = from_centre(round.disc, at_.x), there = from_centre(round.disc, next.x);
+    const double before = t.norm(), after = there.norm(), wanted = t.dot(there) / before;
+    if (!is_near_border(before, radius(round, at_.x)) || wanted < least_turned * before) continue;
+    if (after - wanted < least_turn * (radius(round, next.x) - wanted)) continue;
+    for (int k = 0; k < round.disc.size(); ++k)
+      next.x[round.disc.index[static_cast<std::size_t>(k)]] += (wanted / after - 1) * there[k];
+  }
+  return next;
 }
 
 // The equations at a point made linear, s and lambda eliminated.
