@@ -84,13 +84,14 @@ bool StateSearch::from_guessed_states()
 }
 
 // Guesses from `states_` on; false if they do not converge. Those that something else comes after end sooner: if in `look_back`
-// of them changes have not become half as many. So do those of bodies that run away: no state changes any more, and each solution
-// leads as far from the last one as this from the one before, as weak springs allow. Where no force answers there is no solution
-// [Pazy, Israel J. Math. 9 (1971), of monotone problems]. Steps between soft contacts that make the residual larger are
-// shortened: where friction passes forces on, whole ones take turns for ever. So they may without softness where few states are
-// left to settle: then the last of the places that would change does so alone, which ends where W is a P-matrix [Murty, Linear
-// Algebra Appl. 9 (1974)], until there are fewer changes than ever [Judice and Pires, Comput. Oper. Res. 21 (1994)].
-bool StateSearch::guess(int look_back)
+// of them changes have not become half as many, or if the first makes more than `most_changes`. So do those of bodies that run
+// away: no state changes any more, and each solution leads as far from the last one as this from the one before, as weak springs
+// allow. Where no force answers there is no solution [Pazy, Israel J. Math. 9 (1971), of monotone problems]. Steps between soft
+// contacts that make the residual larger are shortened: where friction passes forces on, whole ones take turns for ever. So they
+// may without softness where few states are left to settle: then the last of the places that would change does so alone, which
+// ends where W is a P-matrix [Murty, Linear Algebra Appl. 9 (1974)], until there are fewer changes than ever [Judice and Pires,
+// Comput. Oper. Res. 21 (1994)].
+bool StateSearch::guess(int look_back, int most_changes)
 {
   std::vector<int> turns(states_.kind.size(), 0), history;
   const double few =
@@ -101,6 +102,7 @@ bool StateSearch::guess(int look_back)
   double before = 0, least = 0;
   VectorXd best_x, best_nu, last_step;
   unbounded_ = false;
+  first_changes_ = INT_MAX;
   for (int step = 0; step < guesses; ++step) {
     stop_if_requested();
     const VectorXd x_before = point_.x, nu_before = point_.nu;
@@ -149,6 +151,8 @@ bool StateSearch::guess(int look_back)
     }
     last_step = std::move(nu_step);
     history.push_back(changes);
+    if (step == 0) first_changes_ = changes;
+    if (changes > few && first_changes_ > most_changes) return false;
     if (look_back > 0 && changes > few && takes_turns(history, look_back)) return false;
     before = residual;
   }

@@ -156,23 +156,32 @@ bool StateSearch::walk(CentralPath& path, double last, const Visit& is_end)
   return false;
 }
 
-// Guesses from points of the central path that come near.
+// Guesses from points of the central path that come near. With factors these end at once if no fewer states are wrong than at a
+// point before, and the path alone ends the search: where rows depend on each other states are what nobody can tell.
 bool StateSearch::follow_path()
 {
   start_soft();
   auto path = programme_.path_from(point_.x, point_.nu);
-  const bool costly = sparing_;
-  double wanted = costly ? Limits::path_nearer * Limits::path_near : Limits::path_near;
-  const bool ended = walk(path, 0, [&] {
+  double wanted = sparing_ ? Limits::path_nearer * Limits::path_near : Limits::path_near;
+  int fewer = INT_MAX;  // changes than half of those that guesses began with before
+  bool ended = false, in_vain = false;
+  walk(path, 0, [&] {
     ++point_.steps;
     const double now = programme_.residual(path.x(), path.nu()) / programme_.size(path.x());
-    if (!(now <= wanted)) return false;
-    wanted = Limits::path_nearer * now;
-    point_.x = path.x(), point_.nu = path.nu();
-    states_ = programme_.states(point_.x, point_.nu);
-    return guess(now <= Limits::settled ? to_the_end : costly ? Limits::look_back_at_first : Limits::look_back_on_path);
+    if (now <= wanted) {
+      wanted = Limits::path_nearer * now;
+      point_.x = path.x(), point_.nu = path.nu();
+      states_ = programme_.states(point_.x, point_.nu);
+      ended = guess(now <= Limits::settled ? to_the_end
+                    : sparing_             ? Limits::look_back_at_first
+                                           : Limits::look_back_on_path,
+                    fewer);
+      in_vain = sparing_ && first_changes_ > fewer;
+      if (sparing_) fewer = first_changes_ / 2;
+    }
+    return ended || (in_vain && now <= Limits::settled);
   });
-  if (ended || !costly) return ended;
+  if (ended || !sparing_) return ended;
   point_.x = path.x(), point_.nu = path.nu();
   states_ = programme_.states(point_.x, point_.nu);
   point_.settled = off() <= Limits::flutter;

@@ -2,6 +2,7 @@
 // condensed_newton.hpp.
 #pragma once
 
+#include <climits>
 #include <optional>
 
 #include "condensed_programme.hpp"
@@ -42,7 +43,7 @@ class StateSearch {
   bool from_guessed_states();
   bool find_sparingly();
   bool find_patiently();
-  bool guess(int look_back);
+  bool guess(int look_back, int most_changes = INT_MAX);
   void shorten(const Eigen::VectorXd& x_before, const Eigen::VectorXd& nu_before);
   int affordable_guesses() const;
   bool is_unbounded(const Eigen::VectorXd& step, const Eigen::VectorXd& last_step) const;
@@ -62,6 +63,7 @@ class StateSearch {
   CondensedNewton::Result point_;
   bool unbounded_ = false;     // how the last guesses ended,
   Eigen::VectorXd last_step_;  // and their last step of nu
+  int first_changes_ = 0;      // of states, that the first of the last guesses made
   double softest_ = 0;
   std::optional<Soft> soft_;
 };
