@@ -79,7 +79,9 @@ std::optional<JoinedStiffness::Factor> JoinedStiffness::factorize(std::vector<Ma
       for (Index i = j; i < part.b.cols(); ++i) lower_.valuePtr()[*at++] += part.b.col(i).dot(times.col(j));
   }
   ++factorizations_;
-  return factor_->factorize(lower_) ? std::optional(Factor(*this, std::move(z), symmetric)) : std::nullopt;
+  if (!factor_->factorize(lower_)) return std::nullopt;
+  if (!symmetric) factor_->prepare_for_many_solves();  // by GMRES
+  return Factor(*this, std::move(z), symmetric);
 }
 
 VectorXd JoinedStiffness::Factor::apply(const VectorXd& u) const

@@ -19,6 +19,7 @@ constexpr double stride = 0.1;           // from one softness to the next
 constexpr double least_stride = 0.8;     // as slow as it gets,
 constexpr double largest_stride = 1e-4;  // and as fast, where
 constexpr int at_once = 2;               // guesses were enough
+constexpr double end_in_vain = 0.1;      // of the residual of what is solved: what products then show needs no more of them
 
 using Eigen::VectorXd;
 
@@ -179,7 +180,7 @@ bool StateSearch::follow_path()
       in_vain = sparing_ && first_changes_ > fewer;
       if (sparing_) fewer = first_changes_ / 2;
     }
-    return ended || (in_vain && now <= Limits::settled);
+    return ended || (in_vain && now <= Limits::settled * end_in_vain);
   });
   if (ended || !sparing_) return ended;
   point_.x = path.x(), point_.nu = path.nu();
