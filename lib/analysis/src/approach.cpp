@@ -35,13 +35,6 @@ bool has_large_subdomains(const Assembly& assembly, const Communicator& comm)
   return comm.max(largest) > large * usual_unknowns(assembly.deck());
 }
 
-// Whether rounding bends some subdomain. Collective.
-bool has_slender_subdomains(const Assembly& assembly, const Communicator& comm)
-{
-  return comm.any(std::ranges::any_of(assembly.system().clusters.subdomains(),
-                                      [](const auto& subdomain) { return subdomain->inaccuracy() > feti::inaccurate; }));
-}
-
 // Whether some body but those of boundary elements is cut. Collective.
 bool cuts_bodies(const Assembly& assembly, const Communicator& comm)
 {
@@ -78,7 +71,7 @@ Approach with_patience(Approach approach, const Assembly& assembly, const constr
   if (approach.kind == Approach::Kind::direct_instead)
     approach.patience = Limits::of_check;
   else if (approach.kind == Approach::Kind::whole_bodies)
-    approach.patience = has_slender_subdomains(assembly, comm)
+    approach.patience = comm.any(feti::any_slender(assembly.system().clusters.subdomains()))
                             ? qp::Patience(Limits::on_slender_bodies)
                             : qp::Patience(Limits::on_whole_bodies, Limits::near_on_whole_bodies);
   else if (approach.algorithm == qp::Options::automatic) {

@@ -28,7 +28,7 @@ void DualOperator::gradient(const Vector& x, const qp::RightHandSide& right, Vec
   auto forces = jump_.apply_transpose(x);
   for (std::size_t s = 0; s < forces.size(); ++s) forces[s] -= right.f[s];
   clusters_.apply_inverse(forces, products_ == Products::rounded);
-  gradient = jump_.apply(forces);
+  gradient.assign(jump_.apply(forces));
   view(gradient) += right.c;
   add_compliance(x, gradient);
 }

@@ -34,13 +34,9 @@ DualSystem::DualSystem(const partition::Decomposition& decomposition, const part
                        Products products)
     : decomposition_(decomposition), subdomains_(subdomains), options_(options), comm_(context.comm), timers_(context.timers)
 {
-  double inaccuracy = 0;
-  for (const auto& subdomain : clusters().subdomains()) {
-    rounding_ = std::max(rounding_, subdomain->rounding());
-    inaccuracy = std::max(inaccuracy, subdomain->inaccuracy());
-  }
+  for (const auto& subdomain : clusters().subdomains()) rounding_ = std::max(rounding_, subdomain->rounding());
   rounding_ = comm_.max(rounding_);
-  slender_ = comm_.max(inaccuracy) > inaccurate;
+  slender_ = comm_.any(any_slender(clusters().subdomains()));
   const auto rows = [&](std::span<const SubdomainRow> gauges) {
     return std::make_unique<const JumpOperator>(decomposition, directory, interface, constraints.prescribed,
                                                 constraints.skew_supports, constraints.contacts, gauges, comm_,

@@ -57,6 +57,11 @@ double quality(const Eigen::MatrixXd& kernel, std::span<const Local> nodes, int 
 
 }  // namespace
 
+bool any_slender(const Subdomains& subdomains)
+{
+  return std::ranges::any_of(subdomains, [](const auto& subdomain) { return subdomain->inaccuracy() > inaccurate; });
+}
+
 std::map<const SubdomainOperator*, std::vector<std::size_t>> by_original(const Subdomains& subdomains)
 {
   std::map<const SubdomainOperator*, std::vector<std::size_t>> members;

@@ -87,7 +87,7 @@ class DualSystem {
   /// F x - d of a load state, with `product` for F, or, where subdomains are slender, at once (DualOperator::gradient()).
   /// Collective.
   void gradient(const Operator& product, const Vector& x, const qp::RightHandSide& right, Vector& gradient) const;
-  /// Whether rounding bends some subdomain of some rank so much that its solutions are refined (SubdomainOperator::inaccuracy()).
+  /// Whether rounding bends some subdomain of some rank (any_slender()).
   bool slender() const { return slender_; }
 
   /// The motions that gauges hold, in the order of the gauges' rows, which are the last ones, from jump().contact_rows().second

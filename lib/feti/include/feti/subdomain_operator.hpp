@@ -68,6 +68,9 @@ constexpr double inaccurate = 3e-8;
 /// The operators of this rank's subdomains, in the order of Decomposition::subdomains. Copies by translation have the same one.
 using Subdomains = std::vector<std::shared_ptr<const SubdomainOperator>>;
 
+/// Whether rounding bends one of them: solutions are refined.
+bool any_slender(const Subdomains& subdomains);
+
 /// The places of this rank's subdomains, by what they are copies of.
 std::map<const SubdomainOperator*, std::vector<std::size_t>> by_original(const Subdomains& subdomains);
 
