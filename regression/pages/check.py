@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The READMEs and the pages of docs/, held against the tree.
+"""The READMEs, the pages of docs/ and regression/ and the list of changes, held against the tree.
 
     check.py [ROOT]
 
@@ -28,8 +28,8 @@ LIST_ITEM = re.compile(r"\s*([-*+]|\d+[.)])\s")
 
 
 def pages(root):
-    """The READMEs of the tree and all pages of docs/ and regression/, results left out."""
-    found = [root / "README.md", *(root / "docs").rglob("*.md")]
+    """The pages at the root, the READMEs of the tree and all pages of docs/ and regression/, results left out."""
+    found = [*root.glob("*.md"), *(root / "docs").rglob("*.md")]
     for folder in FOLDERS:
         found += (root / folder).rglob("*.md" if folder == "regression" else "README.md")
     hidden = lambda path: any(part.startswith(".") or part.endswith(".out") for part in path.relative_to(root).parts)
