@@ -31,7 +31,7 @@ analysis::Outcome solve_load_steps(const model::Model& model, const post::Probes
   const auto approach = analysis::with_patience(asked, assembly, rows.constraints, context.comm);
   // min 1/2 l'F l - l'd, G l = e, l in Omega
   auto problem = analysis::make_dual_problem(assembly, std::move(rows), approach, context);
-  analysis::LoadStepSolver solver(assembly, std::move(problem), approach, context);
+  analysis::LoadStepSolver solver(assembly, problem, approach, context);
 
   Report::LoadSteps steps(report, assembly, states.size(), approach, restart);
   std::optional<analysis::StepState> state;
@@ -39,9 +39,9 @@ analysis::Outcome solve_load_steps(const model::Model& model, const post::Probes
   for (const auto& acts : states) {
     const auto begun = steps.begin(acts, written);
     try {
+      if (state) problem = solver.problem_after(std::move(*state), acts);
       const auto* record = restart.find(approach, acts.time);  // of a run that this one resumes
-      state =
-          record ? solver.take_up(acts, std::move(state), *record) : solver.solve(acts, std::move(state), steps.observer(begun));
+      state = record ? solver.take_up(std::move(problem), *record) : solver.solve(std::move(problem), steps.observer(begun));
       if (steps.gave_up(*state)) return solver.given_up(*state);
       if (&acts == &states.back()) solver.let_go();
       const auto results = analysis::evaluate(assembly, *state, probes, context);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "analysis/symmetric_nodes.hpp"
 #include "base/error.hpp"
@@ -140,14 +139,14 @@ StepProblem make_dual_problem(const Assembly& assembly, Rows rows, const Approac
   }
   const auto scope = context.timers.scope("solve");
   auto dual = make_problem(assembly, placed, std::move(load), approach, context);
-  return {std::move(placed), std::move(symmetric), std::move(dual)};
+  return {std::move(placed), std::move(symmetric), std::move(dual), approach.patience};
 }
 
-LoadStepSolver::LoadStepSolver(const Assembly& assembly, StepProblem first, Approach approach, const Context& context)
-    : assembly_(assembly), context_(context), approach_(std::move(approach)), first_(std::move(first)), before_(approach_.spent)
+LoadStepSolver::LoadStepSolver(const Assembly& assembly, const StepProblem& first, Approach approach, const Context& context)
+    : assembly_(assembly), context_(context), approach_(std::move(approach)), before_(approach_.spent)
 {
   const auto scope = context.timers.scope("solve");
-  solver_of(first_->dual);
+  solver_of(first.dual);
 }
 
 void LoadStepSolver::drop_solver()
@@ -191,10 +190,10 @@ Magnitudes LoadStepSolver::up_to(const StepState& state) const
   return result;
 }
 
-// The problem of the state `acts`, on the system of the state before, `from`, if its rows stay; and turns the solution of `from`
-// into a start for it. Collective.
-StepProblem LoadStepSolver::problem_after(const model::LoadState& acts, StepState& from)
+// Nothing of the state before stays but what it knows.
+StepProblem LoadStepSolver::problem_after(StepState from, const model::LoadState& acts)
 {
+  const auto magnitudes = up_to(from);
   const auto& comm = context_.comm;
   const auto& model = assembly_.model();
   std::vector<Eigen::VectorXd> load;
@@ -220,30 +219,17 @@ StepProblem LoadStepSolver::problem_after(const model::LoadState& acts, StepStat
   auto next = std::make_shared<const Rows>(std::move(*same));
   if (!other_rows && same_sections)
     if (auto dual = from.problem.with_loads(constraints_of(next), load, model.opposed_loads(acts, comm)))
-      return {std::move(next), std::move(symmetric), std::move(*dual)};
+      return {std::move(next),
+              std::move(symmetric),
+              std::move(*dual),
+              from.patience,
+              std::move(from.solved.solution),
+              magnitudes,
+              false};
   drop_solver();  // before there is another system
   auto dual = make_problem(assembly_, next, std::move(load), approach_, context_);
-  from.solved.solution = carry_solution(from.problem, from.solved.solution, dual);
-  return {std::move(next), std::move(symmetric), std::move(dual)};
-}
-
-// Nothing of the state before stays but what it knows.
-LoadStepSolver::Begun LoadStepSolver::begin(const model::LoadState& acts, std::optional<StepState> before)
-{
-  if (!before) {
-    if (!first_) throw std::logic_error("the first load state is solved already");
-    Begun begun{std::move(*first_), assembly_.model().constitution(acts), {}, approach_.patience, {}};
-    first_.reset();
-    return begun;
-  }
-  const auto magnitudes = up_to(*before);
-  auto problem = problem_after(acts, *before);
-  return {std::move(problem),
-          assembly_.model().constitution(acts),
-          std::move(before->solved.solution),
-          before->patience,
-          magnitudes,
-          false};
+  auto start = carry_solution(from.problem, from.solved.solution, dual);
+  return {std::move(next), std::move(symmetric), std::move(dual), from.patience, std::move(start), magnitudes, false};
 }
 
 LoadStepSolver::Norms LoadStepSolver::norms(const post::SymmetricNodes& symmetric, const feti::DualProblem& problem,
@@ -258,10 +244,11 @@ LoadStepSolver::Norms LoadStepSolver::norms(const post::SymmetricNodes& symmetri
 }
 
 // How exactly a state is to be solved. All arguments outlive it.
-qp::Goal LoadStepSolver::goal(const Begun& begun, feti::Displacements& displacements) const
+qp::Goal LoadStepSolver::goal(const StepProblem& problem, std::span<const fem::Constitution> constitution,
+                              feti::Displacements& displacements) const
 {
-  const auto norms_of = [this, &begun](const Vector& lambda, const std::vector<Eigen::VectorXd>& displacement) {
-    return norms(*begun.problem.symmetric, begun.problem.dual, begun.constitution, lambda, displacement);
+  const auto norms_of = [this, &problem, constitution](const Vector& lambda, const std::vector<Eigen::VectorXd>& displacement) {
+    return norms(*problem.symmetric, problem.dual, constitution, lambda, displacement);
   };
   const auto norms_at = [this, norms_of, &displacements](const Vector& lambda, const Eigen::VectorXd& nu) {
     const auto estimating = context_.timers.scope("error estimate");
@@ -277,60 +264,64 @@ qp::Goal LoadStepSolver::goal(const Begun& begun, feti::Displacements& displacem
                 return allowed_error(norms_of(lambda, displacements.at_product(lambda, nu)));
               },
           .incompatibility =
-              [this, &begun, &displacements](const Vector& lambda, const Eigen::VectorXd& nu) {
-                return post::incompatibility(begun.problem.dual, assembly_.decomposition(), assembly_.interface(),
+              [this, &problem, &displacements](const Vector& lambda, const Eigen::VectorXd& nu) {
+                return post::incompatibility(problem.dual, assembly_.decomposition(), assembly_.interface(),
                                              displacements.at(lambda, nu), nu);
               },
           .energy_norm = [=](const Vector& lambda, const Eigen::VectorXd& nu) { return norms_at(lambda, nu).size; },
-          .negligible = begun.before.negligible()};
+          .negligible = problem.before.negligible()};
 }
 
-StepState LoadStepSolver::solve(const model::LoadState& acts, std::optional<StepState> before, const Observer& observer)
+StepState LoadStepSolver::solve(StepProblem problem, const Observer& observer)
 {
-  auto begun = begin(acts, std::move(before));
-  before.reset();
+  const auto constitution = assembly_.model().constitution(problem.rows->acts);
   const auto scope = context_.timers.scope("solve");
-  const auto& problem = begun.problem.dual;
-  auto& solver = solver_of(problem);
+  const auto& dual = problem.dual;
+  auto& solver = solver_of(dual);
   const auto count_on = [&](int step, double change, qp::Progress progress) {
     progress.applications += before_;
     observer(step, change, progress);
   };
   std::optional<qp::Solution> states;
-  if (begun.first && approach_.contact) states = approach_.contact->states_for(problem, context_.comm);
-  feti::Displacements displacements(problem, solver.product());
-  auto found =
-      solver.solve(problem, begun.start, goal(begun, displacements), count_on, begun.patience, states ? &*states : nullptr);
-  if (found.gave_up) return end(std::move(begun), std::move(found), {});
+  if (problem.first && approach_.contact) states = approach_.contact->states_for(dual, context_.comm);
+  feti::Displacements displacements(dual, solver.product());
+  auto found = solver.solve(dual, problem.start, goal(problem, constitution, displacements), count_on, problem.patience,
+                            states ? &*states : nullptr);
+  if (found.gave_up) return end(std::move(problem), std::move(found), {});
   if (approach_.kind == Approach::Kind::direct_instead)
-    begun.patience.reset();  // what it has solved is not thrown away for a later state
+    problem.patience.reset();  // what it has solved is not thrown away for a later state
   const auto& x = found.solution.x;
   auto& nu = found.solution.nu;
-  nu = problem.least_motion(x, nu, displacements.at(x, nu), begun.before.unfelt());
+  nu = dual.least_motion(x, nu, displacements.at(x, nu), problem.before.unfelt());
   auto displacement = displacements.at(x, nu);
-  refuse_support_of_facets(problem, assembly_, *begun.problem.rows, found, displacement);
-  return end(std::move(begun), std::move(found), std::move(displacement));
+  refuse_support_of_facets(dual, assembly_, *problem.rows, found, displacement);
+  return end(std::move(problem), std::move(found), std::move(displacement));
 }
 
-StepState LoadStepSolver::take_up(const model::LoadState& acts, std::optional<StepState> before, const Record& record)
+StepState LoadStepSolver::take_up(StepProblem problem, const Record& record)
 {
-  auto begun = begin(acts, std::move(before));
-  before.reset();
   const auto scope = context_.timers.scope("solve");
-  auto found = solution_of(record, begun.problem.dual, solver_of(begun.problem.dual).product());
+  auto found = solution_of(record, problem.dual, solver_of(problem.dual).product());
   before_ += found.applications;
-  auto displacement = begun.problem.dual.displacement(found.solution.x, found.solution.nu);
-  return end(std::move(begun), std::move(found), std::move(displacement));
+  auto displacement = problem.dual.displacement(found.solution.x, found.solution.nu);
+  return end(std::move(problem), std::move(found), std::move(displacement));
 }
 
 // The state, without what only its solution took. No displacement: it gave up.
-StepState LoadStepSolver::end(Begun begun, feti::DualSolution found, std::vector<Eigen::VectorXd> displacement) const
+StepState LoadStepSolver::end(StepProblem problem, feti::DualSolution found, std::vector<Eigen::VectorXd> displacement) const
 {
-  auto& [rows, symmetric, problem] = begun.problem;
-  problem.let_go_of_response();
-  auto shortenings = found.gave_up ? std::vector<double>() : problem.shortenings(found.solution.nu);
-  return {std::move(rows),        std::move(symmetric), std::move(problem), std::move(found), std::move(displacement),
-          std::move(shortenings), begun.patience,       begun.before,       begun.first};
+  auto& [rows, symmetric, dual, patience, start, before, first] = problem;
+  dual.let_go_of_response();
+  auto shortenings = found.gave_up ? std::vector<double>() : dual.shortenings(found.solution.nu);
+  return {std::move(rows),
+          std::move(symmetric),
+          std::move(dual),
+          std::move(found),
+          std::move(displacement),
+          std::move(shortenings),
+          patience,
+          before,
+          first};
 }
 
 Outcome LoadStepSolver::given_up(const StepState& state) const

@@ -50,25 +50,24 @@ class Analysis {
     assembly_.emplace(*model_, copies, quiet_.context);
     approach_.algorithm = deck_.solver.programme.algorithm;
     auto rows = make_rows(*model_, states_.front(), {}, quiet_.context);
-    solver_.emplace(*assembly_, make_dual_problem(*assembly_, std::move(rows), approach_, quiet_.context), approach_,
-                    quiet_.context);
+    first_.emplace(make_dual_problem(*assembly_, std::move(rows), approach_, quiet_.context));
+    solver_.emplace(*assembly_, *first_, approach_, quiet_.context);
   }
 
   // The states of all steps and what they come to, at their time and when all are solved.
   void solve_all()
   {
-    std::optional<StepState> state;
     for (const auto& acts : states_) {
-      state = solver_->solve(acts, std::move(state), [](int, double, const qp::Progress&) {});
-      results.push_back(evaluate(*assembly_, *state, {}, quiet_.context));
-      states.push_back(*state);
+      auto problem = states.empty() ? *first_ : solver_->problem_after(states.back(), acts);
+      states.push_back(solver_->solve(std::move(problem), [](int, double, const qp::Progress&) {}));
+      results.push_back(evaluate(*assembly_, states.back(), {}, quiet_.context));
     }
     for (const auto& solved : states) again.push_back(evaluate(*assembly_, solved, {}, quiet_.context));
   }
   // The state `i` once more, from the end of the one before it.
   StepState solve_again(std::size_t i)
   {
-    return solver_->solve(states_[i], states[i - 1], [](int, double, const qp::Progress&) {});
+    return solver_->solve(solver_->problem_after(states[i - 1], states_[i]), [](int, double, const qp::Progress&) {});
   }
   const model::Deck& deck() const { return deck_; }
 
@@ -84,6 +83,7 @@ class Analysis {
   std::vector<model::LoadState> states_;
   std::optional<Assembly> assembly_;
   Approach approach_;
+  std::optional<StepProblem> first_;
   std::optional<LoadStepSolver> solver_;
 };
 

@@ -42,14 +42,15 @@ TEST(Runs, LeaveFilesAndASummary)
   analysis::Approach approach;
   approach.algorithm = deck.solver.programme.algorithm;
   auto rows = analysis::make_rows(model, states.front(), {}, context);
-  analysis::LoadStepSolver solver(assembly, analysis::make_dual_problem(assembly, std::move(rows), approach, context), approach,
-                                  context);
+  auto problem = analysis::make_dual_problem(assembly, std::move(rows), approach, context);
+  analysis::LoadStepSolver solver(assembly, problem, approach, context);
 
   FieldFiles files(deck);
   io::Summary all;
   std::optional<analysis::StepState> state;
   for (const auto& acts : states) {
-    state = solver.solve(acts, std::move(state), [](int, double, const qp::Progress&) {});
+    if (state) problem = solver.problem_after(std::move(*state), acts);
+    state = solver.solve(std::move(problem), [](int, double, const qp::Progress&) {});
     const auto results = analysis::evaluate(assembly, *state, probes, context);
     const EvaluatedState found{model.decomposition(), assembly.interface(), *state, probes, results};
     auto summary = summarise(model, found, comm);

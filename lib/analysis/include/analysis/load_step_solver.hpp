@@ -28,11 +28,16 @@ struct Magnitudes {
   double unfelt() const { return 1e-8 * force; }
 };
 
-/// A load state that is to be solved: the rows of B, and the programme. A value, whose large parts are shared.
+/// A load state that is to be solved: the rows of B, the programme, and what is known from the state before. A value, whose large
+/// parts are shared.
 struct StepProblem {
   std::shared_ptr<const Rows> rows;
   std::shared_ptr<const post::SymmetricNodes> symmetric;
-  feti::DualProblem dual;  ///< its constraints are those of `rows`
+  feti::DualProblem dual;                  ///< its constraints are those of `rows`
+  std::optional<qp::Patience> patience;    ///< when it gives up
+  std::optional<qp::Solution> start = {};  ///< from the state before
+  Magnitudes before = {};                  ///< of the states before this one
+  bool first = true;                       ///< there are none
 };
 
 /// A solved load state: all that evaluate() and the next state ask for, whatever was solved after it. A value, whose large parts
@@ -61,17 +66,20 @@ StepProblem make_dual_problem(const Assembly& assembly, Rows rows, const Approac
 /// Heavy: neither copies nor moves.
 class LoadStepSolver {
  public:
-  /// `first`: the problem of the first state, by make_dual_problem(). The assembly outlives it. Collective.
-  LoadStepSolver(const Assembly& assembly, StepProblem first, Approach approach, const Context& context);
+  /// Prepares for problems of the system of `first`. The assembly outlives it. Collective.
+  LoadStepSolver(const Assembly& assembly, const StepProblem& first, Approach approach, const Context& context);
   LoadStepSolver(const LoadStepSolver&) = delete;
   LoadStepSolver& operator=(const LoadStepSolver&) = delete;
 
-  /// Finds the equilibrium of the state `acts`: first, and once, that of the constructor's problem, with nothing for `before`;
-  /// then that of a state after `before`, from whose end friction counts slip. Throws Error(no_equilibrium). Collective.
-  StepState solve(const model::LoadState& acts, std::optional<StepState> before, const Observer& observer);
+  /// The problem of the state `acts` after `before`, from whose end friction counts slip and whose solution is its start. On the
+  /// system of `before` as long as its rows stay. Throws Error(no_equilibrium) as make_dual_problem(). Collective.
+  StepProblem problem_after(StepState before, const model::LoadState& acts);
+
+  /// Finds the equilibrium. Throws Error(no_equilibrium). Collective.
+  StepState solve(StepProblem problem, const Observer& observer);
 
   /// The same without solving: takes the solution from the record of an earlier run. Throws as solution_of(). Collective.
-  StepState take_up(const model::LoadState& acts, std::optional<StepState> before, const Record& record);
+  StepState take_up(StepProblem problem, const Record& record);
 
   /// No state comes after the last one: all that solved it goes, in favour of what is recovered from it.
   void let_go() { drop_solver(); }
@@ -91,27 +99,16 @@ class LoadStepSolver {
   Norms norms(const post::SymmetricNodes& symmetric, const feti::DualProblem& problem,
               std::span<const fem::Constitution> constitution, const Vector& lambda,
               const std::vector<Eigen::VectorXd>& displacement) const;
-  // A state that is about to be solved.
-  struct Begun {
-    StepProblem problem;
-    std::vector<fem::Constitution> constitution;
-    std::optional<qp::Solution> start;  // from the state before
-    std::optional<qp::Patience> patience;
-    Magnitudes before;
-    bool first = true;
-  };
-  Begun begin(const model::LoadState& acts, std::optional<StepState> before);
-  StepProblem problem_after(const model::LoadState& acts, StepState& from);
   void drop_solver();
   DualSolver& solver_of(const feti::DualProblem& problem);
-  qp::Goal goal(const Begun& begun, feti::Displacements& displacements) const;
+  qp::Goal goal(const StepProblem& problem, std::span<const fem::Constitution> constitution,
+                feti::Displacements& displacements) const;
   Magnitudes up_to(const StepState& state) const;
-  StepState end(Begun begun, feti::DualSolution found, std::vector<Eigen::VectorXd> displacement) const;
+  StepState end(StepProblem problem, feti::DualSolution found, std::vector<Eigen::VectorXd> displacement) const;
 
   const Assembly& assembly_;
   const Context& context_;
   const Approach approach_;
-  std::optional<StepProblem> first_;  // until it is solved
   std::optional<DualSolver> solver_;  // of the last system
   int before_ = 0;                    // products of the solvers and approaches before this one
 };
