@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "row_scaling.hpp"
+
 namespace mortise::feti {
 
 namespace {
@@ -118,7 +120,7 @@ std::vector<ContactGram::Entry> ContactGram::products(const std::vector<std::vec
   const Global mine = first_[static_cast<std::size_t>(comm_.rank())];
   for (auto& entry : entries)
     if (entry.row == entry.column)
-      entry.value += jump_.compliance()[jump_.ranges().contacts + static_cast<Local>(entry.row - mine)];
+      entry.value += RowScaling::compliance_of(jump_)[jump_.ranges().contacts + static_cast<Local>(entry.row - mine)];
   std::erase_if(entries, [](const Entry& e) { return e.row != e.column && !(std::abs(e.value) > next_to_nothing); });
   return entries;
 }

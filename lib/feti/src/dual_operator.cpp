@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "row_scaling.hpp"
+
 namespace mortise::feti {
 
 std::vector<Eigen::VectorXd> DualOperator::multiply(const Vector& x, Vector& y, Scalar alpha, Scalar beta) const
@@ -18,7 +20,7 @@ std::vector<Eigen::VectorXd> DualOperator::multiply(const Vector& x, Vector& y, 
 // y += S x, what rows and springs give way by themselves.
 void DualOperator::add_compliance(const Vector& x, Vector& y) const
 {
-  view(y) += jump_.compliance().cwiseProduct(view(x));
+  view(y) += RowScaling::compliance_of(jump_).cwiseProduct(view(x));
   if (springs_) springs_->add_compliance(1, x, y);
 }
 

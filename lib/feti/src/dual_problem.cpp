@@ -59,14 +59,22 @@ void DualProblem::make_right_hand_side(std::vector<Eigen::VectorXd> load)
       std::make_shared<const qp::RightHandSide>(qp::RightHandSide{std::move(d), std::move(e), {}, std::move(load), std::move(c)});
 }
 
-// c of B u = c, as B's rows are scaled: the bounds of the jumps, and the shortenings that are given.
+// c of B u = c, B u <= c, as B's rows are scaled: the bounds of the jumps, and the shortenings that are given.
 Eigen::VectorXd DualProblem::bound() const
 {
-  Eigen::VectorXd c = jump().bound(*constraints_);
+  const auto& ranges = jump().ranges();
+  Eigen::VectorXd c = Eigen::VectorXd::Zero(ranges.end);
+  Local row = ranges.dirichlet;
+  for (const auto& dof : constraints_->prescribed) c[row++] = dof.value;
+  for (const auto& support : constraints_->skew_supports) c[row++] = support.value;
+  for (const auto& mean : constraints_->mean_motions) c[row++] = mean.value;
+  const auto& contacts = constraints_->contacts.rows;
+  for (std::size_t r = 0; r < contacts.size(); ++r) c[ranges.contacts + static_cast<Local>(r)] = contacts.bound[r];
+  c.array() *= RowScaling::of(jump()).array();
   for (const auto& section : constraints_->pretension_sections)
     if (!section.preload.force)
       for (const auto& [row, part] : section.rows) {
-        const auto at = jump().ranges().contacts + static_cast<Local>(row);
+        const auto at = ranges.contacts + static_cast<Local>(row);
         c[at] += RowScaling::of(jump())[at] * (part * section.preload.shortening);
       }
   return c;

@@ -48,7 +48,7 @@ Eigen::VectorXd DualProblem::jumps(const std::vector<Eigen::VectorXd>& u) const
 
 Eigen::VectorXd DualProblem::given_way(const Vector& lambda) const
 {
-  return view(lambda).cwiseProduct(jump().compliance()).cwiseQuotient(RowScaling::of(jump()));
+  return view(lambda).cwiseProduct(RowScaling::compliance_of(jump())).cwiseQuotient(RowScaling::of(jump()));
 }
 
 std::vector<double> DualProblem::radii(std::span<const double> slip_bounds) const

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "dirichlet_elimination.hpp"
+#include "row_scaling.hpp"
 #include "rows_on_root.hpp"
 
 namespace mortise::feti {
@@ -46,9 +47,10 @@ std::vector<double> compliance_on_root(const DirichletElimination& elimination, 
                                        const Communicator& comm)
 {
   std::vector<double> giving;
-  for (Eigen::Index i = 0; i < jump.compliance().size(); ++i)
-    if (const Global number = elimination.number()[static_cast<std::size_t>(i)]; number >= 0 && jump.compliance()[i] > 0)
-      giving.insert(giving.end(), {static_cast<double>(number), jump.compliance()[i]});
+  const auto& compliance = RowScaling::compliance_of(jump);
+  for (Eigen::Index i = 0; i < compliance.size(); ++i)
+    if (const Global number = elimination.number()[static_cast<std::size_t>(i)]; number >= 0 && compliance[i] > 0)
+      giving.insert(giving.end(), {static_cast<double>(number), compliance[i]});
   return on_root(std::move(giving), comm);
 }
 

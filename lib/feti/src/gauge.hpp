@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "feti/free_motions.hpp"
+#include "row_scaling.hpp"
 
 namespace mortise::feti {
 

@@ -95,6 +95,16 @@ JumpOperator::Block block_of(const partition::Subdomain& subdomain, int dimensio
 JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
                            const partition::Interface& interface, std::span<const constraint::PrescribedDof> prescribed,
                            std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
+                           const Communicator& comm, std::span<const constraint::MeanMotion> mean_motions,
+                           const constraint::Springs& springs)
+    : JumpOperator(decomposition, directory, interface, prescribed, skew_supports, contacts, std::span<const SubdomainRow>(),
+                   comm, mean_motions, springs)
+{
+}
+
+JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
+                           const partition::Interface& interface, std::span<const constraint::PrescribedDof> prescribed,
+                           std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
                            std::span<const SubdomainRow> extra, const Communicator& comm,
                            std::span<const constraint::MeanMotion> mean_motions, const constraint::Springs& springs)
 {
@@ -129,19 +139,6 @@ JumpOperator::JumpOperator(const partition::Decomposition& decomposition, const 
   auto piece = pieces.begin();
   for (const auto& subdomain : decomposition.subdomains)
     blocks_.push_back(block_of(subdomain, decomposition.catalogue.dimension, piece, pieces.end(), *overlap_));
-}
-
-Eigen::VectorXd JumpOperator::bound(const constraint::Constraints& constraints) const
-{
-  Eigen::VectorXd bound = Eigen::VectorXd::Zero(ranges_.end);
-  Local row = ranges_.dirichlet;
-  for (const auto& h : constraints.prescribed) bound[row++] = h.value;
-  for (const auto& i : constraints.skew_supports) bound[row++] = i.value;
-  for (const auto& mean : constraints.mean_motions) bound[row++] = mean.value;
-  const auto& rows = constraints.contacts.rows;
-  for (std::size_t r = 0; r < rows.size(); ++r) bound[ranges_.contacts + static_cast<Local>(r)] = rows.bound[r];
-  bound.array() *= scaling_.array();
-  return bound;
 }
 
 std::vector<Eigen::VectorXd> JumpOperator::apply_transpose(const Vector& lambda) const

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "contact_gram.hpp"
+#include "row_scaling.hpp"
 
 namespace mortise::feti {
 
@@ -144,7 +145,7 @@ double Preconditioner::energy(const Vector& r)
         fixed[static_cast<std::size_t>(k)] = true;
     sum += relaxed_energy(subdomains_[s]->original(), fixed, std::move(u[s]));
   }
-  sum += view(right).cwiseAbs2().dot(jump_.compliance());
+  sum += view(right).cwiseAbs2().dot(RowScaling::compliance_of(jump_));
   return comm_.sum(sum) + (springs_ ? springs_->energy(r) : 0);
 }
 
@@ -174,7 +175,7 @@ void Preconditioner::apply(const MultiVector& x, MultiVector& y, Teuchos::ETrans
         }
       }
     Vector result = jump_.apply(forces);
-    view(result) += jump_.compliance().cwiseProduct(view(right));
+    view(result) += RowScaling::compliance_of(jump_).cwiseProduct(view(right));
     contact_->add_curvature(right, result);
     contact_->apply_inverse(result);
     if (springs_) springs_->add_stiffness(1, *in, result);

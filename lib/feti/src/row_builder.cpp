@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/packed.hpp"
+#include "row_scaling.hpp"
 
 namespace mortise::feti {
 

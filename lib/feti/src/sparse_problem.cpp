@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "feti/explicit_problem.hpp"
+#include "row_scaling.hpp"
 #include "rows_on_root.hpp"
 #include "whole_problem.hpp"
 
@@ -130,7 +131,7 @@ SparseProblem::SparseProblem(const DualSystem& system, bool patient)
         entries.insert(entries.end(), {static_cast<double>(owned[static_cast<std::size_t>(j)]),
                                        static_cast<double>(unknowns_ + k), -it.value()});
   entries = feti::on_root(std::move(entries), comm);
-  const auto compliance = rows_->to_root(jump.compliance());
+  const auto compliance = rows_->to_root(RowScaling::compliance_of(jump));
   const auto set = rows_->to_root(system.set());
   SparseMatrix stiffness = stiffness_on_root(false);
   const auto motions = motions_on_root();

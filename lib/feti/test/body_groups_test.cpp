@@ -16,7 +16,7 @@ mesh::BlockOptions cube(double x, double z)
 BodyGroups groups_of(const Blocks& blocks)
 {
   const JumpOperator jump(blocks.decomposition, *blocks.directory, blocks.interface, blocks.constraints.prescribed, {},
-                          blocks.constraints.contacts, {}, blocks.comm);
+                          blocks.constraints.contacts, blocks.comm);
   return body_groups(blocks.decomposition, jump, blocks.constraints.prescribed, blocks.comm);
 }
 

@@ -41,7 +41,7 @@ struct Chains : Blocks {
     }
   }
 
-  JumpOperator jump() const { return {decomposition, *directory, interface, {}, {}, constraints.contacts, {}, comm}; }
+  JumpOperator jump() const { return {decomposition, *directory, interface, {}, {}, constraints.contacts, comm}; }
 };
 
 // B D^-1 B' of the contact rows, on every rank.

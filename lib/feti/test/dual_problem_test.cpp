@@ -17,8 +17,7 @@ namespace {
 TEST(DualProblem, RowsAreOrthonormalInTheStiffness)
 {
   const Cube cube(1e6, true, MPI_COMM_SELF);
-  const JumpOperator jump(cube.decomposition, *cube.directory, cube.interface, cube.constraints.prescribed, {}, {}, {},
-                          cube.comm);
+  const JumpOperator jump(cube.decomposition, *cube.directory, cube.interface, cube.constraints.prescribed, {}, {}, cube.comm);
   int unknowns = 0;
   for (const auto& w : cube.system.nodal_stiffness) unknowns += 3 * static_cast<int>(w.size());
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(jump.rows()->getGlobalNumElements()), unknowns);

@@ -113,7 +113,7 @@ TEST(RowDistribution, TheOwnerOfARowHoldsACopy)
   const auto prescribed = distribute_rows(blocks.prescribed(), decomposition, directory, comm);
   const auto skew_supports = distribute_rows(blocks.skew_supports(), decomposition, directory, comm);
   const auto contacts = distribute_rows(blocks.contacts(), decomposition, directory, comm);
-  const JumpOperator jump(decomposition, directory, blocks.interface, prescribed, skew_supports, contacts, {}, comm);
+  const JumpOperator jump(decomposition, directory, blocks.interface, prescribed, skew_supports, contacts, comm);
   EXPECT_EQ(comm.sum(static_cast<long long>(prescribed.size())), 2 * 25);
   EXPECT_EQ(comm.sum(static_cast<long long>(skew_supports.size())), 2 * 25);
   for (const Global row : jump.rows()->getNodeElementList()) EXPECT_TRUE(jump.touched_rows()->isNodeGlobalElement(row));

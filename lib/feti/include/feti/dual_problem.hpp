@@ -85,7 +85,8 @@ class DualProblem {
   Vector gradient(const Eigen::VectorXd& gaps, const Eigen::VectorXd& nu) const;
   /// row . u of each row, a length. Collective.
   Eigen::VectorXd jumps(const std::vector<Eigen::VectorXd>& u) const;
-  /// How far each row gives way by itself under these multipliers, a length: see JumpOperator::compliance().
+  /// How far each row gives way by itself under these multipliers, a length; nothing but for rows between
+  /// contact nodes, and for those of friction that have no entries.
   Eigen::VectorXd given_way(const Vector& lambda) const;
   /// Radii for the discs of set() from slip bounds, forces, one for each disc.
   std::vector<double> radii(std::span<const double> slip_bounds) const;

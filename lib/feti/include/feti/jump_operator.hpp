@@ -18,27 +18,25 @@
 
 namespace mortise::feti {
 
-/// An additional equality row given in terms of subdomains: coefficients over all unknowns of this rank's subdomains (empty
-/// vectors where it has none). The row stands on the rank of the lowest subdomain that has it. `scale`: that of the row over
-/// one in lengths, the same on all ranks.
-struct SubdomainRow {
-  std::vector<Eigen::VectorXd> coefficients;
-  double scale = 1;
-};
-
-struct RowScaling;  // of this module alone
+struct SubdomainRow;  // of this module alone, as what follows
+struct RowScaling;
 
 /// Heavy: moves, does not copy.
 class JumpOperator {
  public:
-  /// `prescribed`, `skew_supports`, `mean_motions`, `springs` and `contacts`: this rank's rows; `extra`: the same rows on all
-  /// ranks. Owned rows are numbered on each rank: gluing, Dirichlet (prescribed components, skew supports, mean motions),
-  /// springs, contacts, extra. Collective.
+  /// `prescribed`, `skew_supports`, `mean_motions`, `springs` and `contacts`: this rank's rows. Owned rows are numbered on each
+  /// rank: gluing, Dirichlet (prescribed components, skew supports, mean motions), springs, contacts, extra. Collective.
+  JumpOperator(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
+               const partition::Interface& interface, std::span<const constraint::PrescribedDof> prescribed,
+               std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
+               const Communicator& comm, std::span<const constraint::MeanMotion> mean_motions = {},
+               const constraint::Springs& springs = {});
+  /// With these extra rows, the same on all ranks. Collective.
   JumpOperator(const partition::Decomposition& decomposition, const partition::NodeDirectory& directory,
                const partition::Interface& interface, std::span<const constraint::PrescribedDof> prescribed,
                std::span<const constraint::SkewSupport> skew_supports, const constraint::Contacts& contacts,
                std::span<const SubdomainRow> extra, const Communicator& comm,
-               std::span<const constraint::MeanMotion> mean_motions = {}, const constraint::Springs& springs = {});
+               std::span<const constraint::MeanMotion> mean_motions, const constraint::Springs& springs);
 
   /// The dual space: each row on one rank.
   Teuchos::RCP<const Map> rows() const { return rows_; }
@@ -49,13 +47,6 @@ class JumpOperator {
   const Ranges& ranges() const { return ranges_; }
   /// Global numbers of the contact rows of all ranks: first, and one past the last.
   std::pair<Global, Global> contact_rows() const { return contact_rows_; }
-  /// How far each owned row gives way under its multiplier: F gets these on its diagonal. Rows between contact nodes give way
-  /// as a node does, for without it they depend on those of the nodes; and so do rows without entries, of friction between what
-  /// supports hold. The others do not.
-  const Eigen::VectorXd& compliance() const { return compliance_; }
-  /// c, scaled, of the owned rows: B u = c, B u <= c. The rows of `constraints` are those that this was made of, their bounds may
-  /// be others.
-  Eigen::VectorXd bound(const constraint::Constraints& constraints) const;
 
   /// f_s = B_s' lambda for each subdomain of this rank. Collective.
   std::vector<Eigen::VectorXd> apply_transpose(const Vector& lambda) const;

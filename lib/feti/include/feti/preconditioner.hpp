@@ -2,7 +2,7 @@
 //
 //     M = C (B D^-1 S D^-1 B' + E) C,   C = (B D^-1 B' + E)^-1,
 //
-// - E: what rows give way by (JumpOperator::compliance()).
+// - E: what rows give way by (DualProblem::given_way()).
 // - D: the stiffness of the nodes, so that M F is near the identity [Klawonn and Widlund, Comm. Pure Appl. Math. 54 (2001)].
 // - C: the identity but for contact rows that share nodes, since B is orthonormal in D^-1 elsewhere; of these rows only those
 //   count that are free on the active set at hand.
