@@ -1,6 +1,5 @@
 #include "friction/coulomb.hpp"
 
-#include <tuple>
 #include <utility>
 
 #include "coulomb_search.hpp"
@@ -12,10 +11,7 @@ CoulombSearch::CoulombSearch(const CoulombProblem& problem, const CoulombMeans& 
     : problem_(problem),
       means_(means),
       watch_([this, &observer](const qp::Progress& progress) { observer(step_, change_, progress); }),
-      radii_(radii_at(nullptr)),
-      previous_radii_(radii_),
-      at_work_(radii_),
-      solution_(problem.start)
+      at_work_(radii_at(nullptr))
 {
 }
 
@@ -47,81 +43,85 @@ double CoulombSearch::change_of_bounds(const std::vector<double>& wanted, const 
 }
 
 // Of bounds and forces that were found together. Where the error decides, what the bounds would still change counts in it.
-bool CoulombSearch::obeys_law(qp::Solution& found, const std::vector<double>& radii, double change)
+bool CoulombSearch::obeys_law(Found& found, const std::vector<double>& radii, double change)
 {
-  return found.converged && (problem_.goal.allowed_error || change <= problem_.options.tolerance) &&
-         balances(problem_.dual, problem_.omega, radii, found.x) && judge(found);
+  const auto& solution = found.solution;
+  return solution.converged && (problem_.goal.allowed_error || change <= problem_.options.tolerance) &&
+         balances(problem_.dual, problem_.omega, radii, solution.x) && judge(found);
 }
 
-void CoulombSearch::follow_law()
+std::optional<CoulombSearch::Found> CoulombSearch::follow_law()
 {
   const qp::SlipLaw law = slip_law(false);
-  const auto solve = [&] { return means_.algorithm.solve(problem_.right, law, solution_, problem_.goal, watch_, means_.known); };
+  const auto solve = [&] {
+    return means_.algorithm.solve(problem_.right, law, problem_.start, problem_.goal, watch_, means_.known);
+  };
   step_ = 1;
-  auto found = solve();
-  if (found && found->slides) {
-    refuse_if_sliding(problem_.dual, problem_.omega, problem_.laws, found->x);
-    found = solve();
+  auto solution = solve();
+  if (solution && solution->slides) {
+    refuse_if_sliding(problem_.dual, problem_.omega, problem_.laws, solution->x);
+    solution = solve();
   }
-  if (!found) {
+  if (!solution) {
     step_ = 0;
-    return;
+    return {};
   }
-  count(*found);
-  at_work_ = found->radii;
-  if (!found->feasible) return;
-  radii_ = radii_at(&found->x);
-  change_ = change_of_bounds(radii_, at_work_, *found);
-  converged_ = obeys_law(*found, radii_, change_);
-  solution_ = std::move(found);
-  solved_ = true;
+  count(*solution);
+  at_work_ = solution->radii;
+  if (!solution->feasible) return {};
+  Found found{std::move(*solution)};
+  const auto radii = radii_at(&found.solution.x);
+  change_ = change_of_bounds(radii, at_work_, found.solution);
+  found.converged = obeys_law(found, radii, change_);
+  return found;
 }
 
-void CoulombSearch::follow_cautiously()
+std::optional<CoulombSearch::Found> CoulombSearch::follow_cautiously()
 {
-  if (converged_ || !means_.budget.left()) return;
   means_.budget.change_algorithm();
-  auto found = means_.algorithm.solve(problem_.right, slip_law(true), problem_.before, problem_.goal, watch_, means_.known);
-  if (!found) return;
-  count(*found);
-  if (!found->feasible) return;
-  auto radii = radii_at(&found->x);
-  const double change = change_of_bounds(radii, found->radii, *found);
-  const auto before = std::pair(std::exchange(at_work_, found->radii), judged_);
-  if (!obeys_law(*found, radii, change)) {
-    std::tie(at_work_, judged_) = before;
-    return;
+  auto solution = means_.algorithm.solve(problem_.right, slip_law(true), problem_.before, problem_.goal, watch_, means_.known);
+  if (!solution) return {};
+  count(*solution);
+  if (!solution->feasible) return {};
+  Found found{std::move(*solution)};
+  const auto radii = radii_at(&found.solution.x);
+  const double change = change_of_bounds(radii, found.solution.radii, found.solution);
+  auto before = std::exchange(at_work_, found.solution.radii);
+  found.converged = obeys_law(found, radii, change);
+  if (!found.converged) {
+    at_work_ = std::move(before);
+    return {};
   }
-  radii_ = std::move(radii);
   change_ = change;
-  solution_ = found;
-  solved_ = converged_ = true;
+  return found;
 }
 
-bool CoulombSearch::judge(qp::Solution& solution)
+bool CoulombSearch::judge(Found& found)
 {
+  auto& solution = found.solution;
   judge_by_law(problem_.dual, problem_.omega.with_radii(at_work_), problem_.laws, means_.hessian, solution);
-  judged_ = true;
+  found.judged = true;
   return !problem_.goal.allowed_error || !(solution.error > Limits::slack * problem_.goal.allowed_error(solution.x, solution.nu));
 }
 
 CoulombSolution CoulombSearch::solve(const CoulombWays& ways)
 {
   const auto& hessian = means_.hessian;
-  follow_law();
-  if (!solved_ || ways.fixed_point) fixed_point();  // a few products each, from what A^-1 leads on from
+  auto found = follow_law();
+  if (!found || ways.fixed_point) found = fixed_point(std::move(found));  // a few products each, from what A^-1 leads on from
   const bool spent = hessian.exhausted();
   std::string limit;
   if (spent)
     limit = means_.budget.reason();
   else if (step_ >= problem_.options.max_steps)
     limit = "friction_loop.max_steps";
-  if (ways.cautiously) follow_cautiously();
-  if (solved_ && (converged_ || !(spent || hessian.exhausted())) && !judged_) judge(*solution_);
-  return {{.solution = *solution_,
+  if (ways.cautiously && !found->converged && means_.budget.left())
+    if (auto better = follow_cautiously()) found = std::move(better);
+  if ((found->converged || !(spent || hessian.exhausted())) && !found->judged) judge(*found);
+  return {{.solution = found->solution,
            .steps = step_,
            .change = change_,
-           .converged = converged_ && solution_->converged,
+           .converged = found->converged && found->solution.converged,
            .limit = std::move(limit),
            .preconditionings = preconditionings_,
            .outer_iterations = outer_},

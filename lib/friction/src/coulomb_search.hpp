@@ -18,7 +18,6 @@ struct SearchLimits {
   static constexpr int idle_steps = 3;  ///< without a smaller change: light groups of bodies feel what solutions leave of others
   static constexpr double slack = 1.5;  ///< of an allowed error, by what is next to nothing in energy at the limit of friction
   static constexpr double to_come = 100;  ///< changes that are still to come, at most, over the next one
-  static constexpr double step = 1e-3;    ///< change that tells how normal forces answer; less may be rounding
   // Bounds that leave no feasible point.
   static constexpr int retreats = 4;        ///< half way back in a row, then bounds that surely leave one,
   static constexpr double room = 1 + 1e-6;  ///< times as large, for in a set of these it would be on the edge
@@ -40,48 +39,40 @@ class CoulombSearch {
  private:
   using Limits = SearchLimits;
 
-  /// Bounds and forces together, if the algorithm can.
-  void follow_law();
+  /// A solution of this load step.
+  struct Found {
+    qp::Solution solution;
+    bool judged = false;  ///< what it breaks the law by counts in its error
+    bool converged = false;
+  };
+
+  /// Bounds and forces together; nothing if the algorithm cannot, or finds bounds without a feasible point.
+  std::optional<Found> follow_law();
   /// From what was found so far.
-  void fixed_point();
-  void follow_cautiously();
+  Found fixed_point(std::optional<Found> found);
+  /// Together by steps that may be shortened; nothing if that does not converge.
+  std::optional<Found> follow_cautiously();
   /// Takes what bounds and normal forces still differ by for error; whether the whole is allowed. Only once of a solution.
-  bool judge(qp::Solution& solution);
+  bool judge(Found& found);
 
   std::vector<double> radii_at(const Vector* lambda) const;
   qp::SlipLaw slip_law(bool cautious) const;
   void count(const qp::Solution& found);
-  bool obeys_law(qp::Solution& found, const std::vector<double>& radii, double change);
+  bool obeys_law(Found& found, const std::vector<double>& radii, double change);
   double change_of_bounds(const std::vector<double>& wanted, const std::vector<double>& now, const qp::Solution& at) const;
-  bool believable() const;
-  // Of the fixed point.
-  bool solve_tresca(const qp::Goal& goal);
-  void step_back();
-  void admit();
-  bool contacts_at_rest();
-  bool at_rest(const std::vector<double>& wanted, double tolerance);
-  double error_of_bounds(const std::vector<double>& wanted);
-  void note_response(const std::vector<double>& wanted);
+  bool believable(const qp::Solution& solution) const;
+  // Of the fixed point; the Tresca problem's radii are those at work.
+  std::vector<double> admitted_radii(const qp::Solution& found, const qp::Solution& infeasible) const;
+  bool contacts_at_rest(const qp::Solution& solution) const;
+  bool at_rest(Found& found, const std::vector<double>& wanted, double tolerance, const std::optional<double>& response);
+  double error_of_bounds(const qp::Solution& solution, const std::vector<double>& wanted) const;
 
   const CoulombProblem problem_;
   const CoulombMeans means_;
   const qp::Observer watch_;
-  std::vector<double> radii_, previous_radii_;  // of discs, see DualProblem::radii(): those that come next, and before
-  std::vector<double> at_work_;                 // those of the last problem that was solved, or tried
-  std::optional<qp::Solution> solution_;        // at first the start
-  bool solved_ = false;                         // it is of this load step
-  bool judged_ = false;                         // and what it breaks the law by counts in its error
-  bool converged_ = false;
+  std::vector<double> at_work_;  // radii of discs, see DualProblem::radii(): of the last problem that was solved, or tried
   double change_ = 1;
   int step_ = 0, outer_ = 0, preconditionings_ = 0;
-  // Of the last Tresca problem that was infeasible, nu, and whether that proves it; and how many were, one after the other.
-  Eigen::VectorXd escape_;
-  bool proven_ = false;
-  int infeasible_ = 0;
-  // A Tresca problem's last radii, and those that its solution asks for; maybe none on this rank.
-  bool any_answer_ = false;
-  std::vector<double> answered_, answer_;
-  std::optional<double> response_;  // how much of a change of bounds the normal forces answer with, if it is known
 };
 
 }  // namespace mortise::friction

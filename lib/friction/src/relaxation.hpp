@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -43,6 +45,40 @@ class Relaxation {
   std::vector<double> step_;  // the one before
   double part_ = 1;
   int growing_ = 0;
+};
+
+// How much of a change of bounds the normal forces answer with, by Tresca problems one after the other.
+class Response {
+ public:
+  explicit Response(const Communicator& comm) : comm_(comm) {}
+
+  // A problem with the bounds `given` asks for those `wanted`. What changes by no more than rounding tells nothing. Collective.
+  void note(const std::vector<double>& given, const std::vector<double>& wanted)
+  {
+    if (before_) {
+      std::array<double, 3> squares{0, 0, 0};  // of the changes of bounds and answers, of the answers
+      for (std::size_t i = 0; i < wanted.size(); ++i) {
+        if (!std::isfinite(given[i]) || !std::isfinite(before_->given[i])) continue;
+        squares[0] += std::pow(given[i] - before_->given[i], 2);
+        squares[1] += std::pow(wanted[i] - before_->wanted[i], 2);
+        squares[2] += wanted[i] * wanted[i];
+      }
+      comm_.sum_in_place(squares);
+      if (squares[0] > step * step * squares[2]) part_ = std::sqrt(squares[1] / squares[0]);
+    }
+    before_ = Answer{given, wanted};
+  }
+  // The part, of the last change that tells it; nothing if none has.
+  const std::optional<double>& part() const { return part_; }
+
+ private:
+  struct Answer {
+    std::vector<double> given, wanted;
+  };
+  static constexpr double step = 1e-3;  // change, relative, that is more than rounding
+  const Communicator& comm_;
+  std::optional<Answer> before_;
+  std::optional<double> part_;
 };
 
 }  // namespace mortise::friction

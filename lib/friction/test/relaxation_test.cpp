@@ -1,4 +1,4 @@
-// Aitken's rule: how far the fixed point goes towards its next bounds.
+// How far the fixed point goes towards its next bounds, and what comes back of a change.
 #include "../src/relaxation.hpp"
 
 #include <gtest/gtest.h>
@@ -65,6 +65,23 @@ TEST(Relaxation, PointsThatStickWithoutALimitHaveNoSay)
   Relaxation all(comm), one(comm);
   const std::vector<std::pair<double, double>> path{{0, 1}, {1, 0.25}, {0.5, 0.75}};
   for (const auto& [now, next] : path) EXPECT_EQ(all({now, infinite, 3}, {next, 5, infinite}), one({now}, {next}));
+}
+
+// Answers of -0.8 of a change: known from the second problem on, and not told by a change that may be rounding, nor by bounds
+// that were infinite.
+TEST(Response, IsKnownFromTheSecondProblemOn)
+{
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const Communicator comm(MPI_COMM_SELF);
+  Response response(comm);
+  const auto answer = [](double given) { return 5 - 0.8 * given; };
+  response.note({infinite, 1}, {3, answer(1)});
+  EXPECT_FALSE(response.part());
+  response.note({3, 2}, {4, answer(2)});
+  ASSERT_TRUE(response.part());
+  EXPECT_NEAR(*response.part(), 0.8, 1e-12);
+  response.note({3, 2 + 1e-5}, {4, 100});
+  EXPECT_NEAR(*response.part(), 0.8, 1e-12);
 }
 
 // Each rank holds a part of the bounds, one of them maybe none: the step is that of all bounds.
