@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/error.hpp"
@@ -15,6 +16,7 @@ namespace {
 constexpr int max_turns = 3;  // of the slip at a point; then it sticks before it turns
 constexpr double worse = 3;   // times the residual before: such a step is shortened,
 constexpr int halvings = 6;   // so often at most
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 using Eigen::VectorXd;
 
@@ -105,14 +107,8 @@ bool StateSearch::guess(int look_back, int most_changes)
   first_changes_ = INT_MAX;
   for (int step = 0; step < guesses; ++step) {
     stop_if_requested();
-    const VectorXd x_before = point_.x, nu_before = point_.nu;
-    programme_.solve(states_, point_.x, point_.nu);
-    ++point_.steps;
-    double residual = programme_.residual(point_.x, point_.nu);
-    if (step > 0 && programme_.softness() > 0 && residual > worse * before) {
-      shorten(x_before, nu_before);
-      residual = programme_.residual(point_.x, point_.nu);
-    }
+    const VectorXd nu_before = point_.nu;
+    const double residual = solve_for_states(step > 0 && programme_.softness() > 0 ? worse * before : infinite);
     const double size = programme_.size(point_.x);
     if (!std::isfinite(residual) && sparing_) return false;
     auto next = programme_.states(point_.x, point_.nu);
@@ -157,6 +153,18 @@ bool StateSearch::guess(int look_back, int most_changes)
     before = residual;
   }
   return false;
+}
+
+// To the point of these states; part of the way if the residual is above `most` there. The residual.
+double StateSearch::solve_for_states(double most)
+{
+  const VectorXd x_before = point_.x, nu_before = point_.nu;
+  programme_.solve(states_, point_.x, point_.nu);
+  ++point_.steps;
+  const double residual = programme_.residual(point_.x, point_.nu);
+  if (!(residual > most)) return residual;
+  shorten(x_before, nu_before);
+  return programme_.residual(point_.x, point_.nu);
 }
 
 // Back towards the x and nu before, as long as that makes the residual smaller.

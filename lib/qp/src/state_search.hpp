@@ -44,6 +44,7 @@ class StateSearch {
   bool find_sparingly();
   bool find_patiently();
   bool guess(int look_back, int most_changes = INT_MAX);
+  double solve_for_states(double most);
   void shorten(const Eigen::VectorXd& x_before, const Eigen::VectorXd& nu_before);
   int affordable_guesses() const;
   bool is_unbounded(const Eigen::VectorXd& step, const Eigen::VectorXd& last_step) const;
