@@ -235,6 +235,38 @@ TEST(Interpenetration, SidesOfAContact)
   EXPECT_NEAR(deepest(moved(skin, down)), 0.1, 1e-12);
 }
 
+// Three uneven bars, one of fine and one of coarse cells above a long one, that comes up between them and moves aside. Each rank
+// has a piece of every bar, and is told of what lies near those: places and depths are those of one rank, to the last digit.
+TEST(Interpenetration, TheSameOnAnyRanks)
+{
+  constexpr double length = 20;
+  OuterFaces skin;
+  skin.add_box(0, Point(0, 0, 0), Point(length, 2, 1), {70, 7, 3});
+  skin.add_box(1, Point(0.5, 0.3, 1.15), Point(9, 1.4, 1), {43, 6, 2});
+  skin.add_box(2, Point(10, -0.2, 1.1), Point(9.5, 2.5, 1), {8, 3, 1});
+  for (auto& x : skin.points) x[2] += 0.1 * std::sin(2.3 * x[0] + x[2]) * std::cos(1.7 * x[1]);
+  auto after = skin;
+  for (std::size_t f = 0; f < skin.faces.size(); ++f)
+    for (const Local n : skin.faces[f])
+      if (skin.body[f] == 0)
+        after.points[static_cast<std::size_t>(n)] = skin.points[static_cast<std::size_t>(n)] + Point(0.02, 0, 0.2);
+  const auto found_on = [&](const Communicator& comm) {
+    return find_interpenetrations(
+        skin.in_slabs(length, comm), after.in_slabs(length, comm), 3, [] { return ContactSides(); }, {1e-3, 0.42},
+        fem::Kinematics::solid, comm);
+  };
+  const auto found = found_on(Communicator()), expected = found_on(Communicator(MPI_COMM_SELF));
+  EXPECT_GT(std::ranges::count(expected, 1, &Interpenetration::body), 20);
+  EXPECT_GT(std::ranges::count(expected, 2, &Interpenetration::other), 20);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].body, expected[i].body);
+    EXPECT_EQ(found[i].other, expected[i].other);
+    EXPECT_EQ(found[i].depth, expected[i].depth);
+    EXPECT_EQ(found[i].at, expected[i].at);
+  }
+}
+
 // A block in a pit between two walls, 0.2 from each: within the body's box, and not in the body.
 TEST(Interpenetration, InAPit)
 {

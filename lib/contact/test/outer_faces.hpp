@@ -12,7 +12,7 @@
 
 namespace mortise::contact {
 
-// Outer faces of bodies, whole on every rank; a rank takes every ranks-th face.
+// Outer faces of bodies, whole on every rank; a rank takes every ranks-th face, or those of a slab.
 struct OuterFaces {
   std::vector<Point> points;
   std::vector<std::vector<Local>> faces;
@@ -62,12 +62,31 @@ struct OuterFaces {
 
   mesh::Surface on_rank(const Communicator& comm) const
   {
+    const auto ranks = static_cast<std::size_t>(comm.size());
+    return of_rank(comm.rank(), [&](std::size_t f) { return static_cast<int>(f % ranks); });
+  }
+
+  // A rank's faces of a body lie together, beside those of others along x, from 0 to `length`; what lies above each other of two
+  // bodies is on different ranks.
+  mesh::Surface in_slabs(double length, const Communicator& comm) const
+  {
+    return of_rank(comm.rank(), [&](std::size_t f) {
+      const double part = points[static_cast<std::size_t>(faces[f].front())][0] / length;
+      return (std::clamp(static_cast<int>(part * comm.size()), 0, comm.size() - 1) + body[f]) % comm.size();
+    });
+  }
+
+ private:
+  template <class RankOf>
+  mesh::Surface of_rank(int rank, const RankOf& rank_of) const
+  {
     mesh::Surface result;
     for (std::size_t n = 0; n < points.size(); ++n) {
       result.points.push_back(points[n]);
       result.node_id.push_back(static_cast<Global>(n));
     }
-    for (std::size_t f = static_cast<std::size_t>(comm.rank()); f < faces.size(); f += static_cast<std::size_t>(comm.size())) {
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (rank_of(f) != rank) continue;
       result.faces.add(faces[f].size() == 2 ? mesh::CellType::line2 : mesh::CellType::quad4, faces[f]);
       result.face_id.push_back(static_cast<Global>(f));
       result.body.push_back(body[f]);

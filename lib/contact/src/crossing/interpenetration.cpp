@@ -6,10 +6,9 @@
 #include <set>
 #include <tuple>
 
+#include "crossing/near_skin.hpp"
 #include "crossing/skin_edges.hpp"
 #include "pairing/facing.hpp"
-#include "pairing/skin.hpp"
-#include "search/boxes.hpp"
 #include "surface/closest_point.hpp"
 
 namespace mortise::contact {
@@ -216,29 +215,24 @@ struct SentPlace {
   std::array<double, 3> at;
 };
 
-// The faces of `all` that are in `some`, whose faces come in the same order.
-mesh::Surface same_faces(const mesh::Surface& all, const mesh::Surface& some)
+// Nodes and middles of facets of this rank's faces, those of the lowest rank that has a face there.
+std::vector<PlaceOfSkin> places_of(const NearSkin& near, const Communicator& comm)
 {
-  std::vector<std::size_t> chosen;
-  for (std::size_t f = 0; f < all.faces.size() && chosen.size() < some.face_id.size(); ++f)
-    if (all.face_id[f] == some.face_id[chosen.size()]) chosen.push_back(f);
-  return part_of(all, chosen);
-}
-
-// This rank's share of nodes and middles of facets.
-std::vector<PlaceOfSkin> places_of(const Side& side, const Communicator& comm)
-{
-  const auto ranks = static_cast<std::size_t>(comm.size()), rank = static_cast<std::size_t>(comm.rank());
+  const auto& side = near.skin().side;
+  std::vector<int> lowest(side.points.size(), comm.size());
+  for (std::size_t f = 0; f < side.faces.size(); ++f)
+    for (const Local n : side.faces[f]) lowest[at(n)] = std::min(lowest[at(n)], near.rank()[f]);
   std::vector<PlaceOfSkin> places;
   std::vector<std::size_t> place_of(side.points.size(), side.points.size());
-  for (std::size_t n = rank; n < side.points.size(); n += ranks) {
+  for (std::size_t n = 0; n < side.points.size(); ++n) {
+    if (lowest[n] != comm.rank()) continue;
     place_of[n] = places.size();
     places.push_back({static_cast<int>(n), {-1, -1}, 0, {}});
   }
   for (std::size_t i = 0; i < side.facets.size(); ++i) {
     for (const Local n : side.facets[i])
       if (place_of[at(n)] < side.points.size()) places[place_of[at(n)]].facets.push_back(i);
-    if (i % ranks == rank) places.push_back({-1, {-1, -1}, 0, {i}});
+    if (near.rank_of_facet(i) == comm.rank()) places.push_back({-1, {-1, -1}, 0, {i}});
   }
   return places;
 }
@@ -246,10 +240,13 @@ std::vector<PlaceOfSkin> places_of(const Side& side, const Communicator& comm)
 // What is known of contacts, by faces and bodies of a skin.
 class Touching {
  public:
-  Touching(const Skin& skin, const ContactSides& sides) : skin_(skin), sides_(sides)
+  // Collective.
+  Touching(const Skin& skin, const ContactSides& sides, const Communicator& comm) : skin_(skin), sides_(sides)
   {
+    std::set<std::array<int, 2>> found;  // sides, bodies
     for (std::size_t f = 0; f < skin.face_id.size(); ++f)
-      for (const int side : sides_at(static_cast<int>(f))) bodies_[side].insert(skin.body[f]);
+      for (const int side : sides_at(static_cast<int>(f))) found.insert({side, skin.body[f]});
+    for (const auto& [side, body] : comm.all_gather(std::vector(found.begin(), found.end()))) bodies_[side].insert(body);
   }
 
   // Whether contacts keep a place apart from the other body: they have its faces and those next to it on their two sides, or,
@@ -288,11 +285,12 @@ class Touching {
   std::map<int, std::set<int>> bodies_;  // of each side
 };
 
-// What of this rank's places, and of what passes through other bodies of its share of the edges, lies deeper than `least` in
-// other bodies, at these points.
-std::vector<Deep> deep_places(const Skin& skin, const std::vector<SkinEdge>& edges, const std::vector<Point>& points,
+// What of this rank's places, and of what passes through other bodies of its edges, lies deeper than `least` in other bodies, at
+// these points.
+std::vector<Deep> deep_places(const NearSkin& near, const std::vector<SkinEdge>& edges, const std::vector<Point>& points,
                               const std::vector<PlaceOfSkin>& places, const DepthRange& range, const Communicator& comm)
 {
+  const auto& skin = near.skin();
   Surfaces surfaces(skin, edges, points);
   std::vector<Deep> deep;
   const auto look = [&](const PlaceOfSkin& place) {
@@ -309,9 +307,10 @@ std::vector<Deep> deep_places(const Skin& skin, const std::vector<SkinEdge>& edg
     }
   };
   for (const auto& place : places) look(place);
-  const auto ranks = static_cast<std::size_t>(comm.size());
-  for (auto i = static_cast<std::size_t>(comm.rank()); i < edges.size(); i += ranks) {
-    const auto& edge = edges[i];
+  for (const auto& edge : edges) {
+    int lowest = comm.size();
+    for (const std::size_t facet : edge.facets) lowest = std::min(lowest, near.rank_of_facet(facet));
+    if (lowest != comm.rank()) continue;
     surfaces.each_part_between(edge, points[at(edge.nodes[0])], points[at(edge.nodes[1])], [&](double part) {
       look({-1, {edge.nodes[0], edge.nodes[1]}, part, edge.facets});
     });
@@ -348,22 +347,23 @@ std::vector<Interpenetration> find_interpenetrations(const mesh::Surface& before
                                                      fem::Kinematics kinematics, const Communicator& comm)
 {
   const Lengths lengths{range.largest, 0, false, diagonals(now, bodies, comm)};
-  const auto near = near_others(now, lengths, comm);
-  const Skin skin = gather_skin(near, kinematics, comm);
+  // At the points before places look as far as 2 range.largest, and were nearer to each other by range.largest.
+  const NearSkin near(now, bodies, lengths, 3 * range.largest, kinematics, comm);
+  const auto& skin = near.skin();
   const auto edges = edges_of(skin);
-  const auto places = places_of(skin.side, comm);
-  auto deep = deep_places(skin, edges, skin.side.points, places, range, comm);
+  const auto places = places_of(near, comm);
+  auto deep = deep_places(near, edges, skin.side.points, places, range, comm);
   if (!comm.any(!deep.empty())) return {};
   const auto known = sides();
-  const Touching touching(skin, known);
+  const Touching touching(skin, known, comm);
   const auto drop_contacts = [&](std::vector<Deep>& some) {
     std::erase_if(some, [&](const Deep& d) { return touching.keep_apart(d); });
   };
   drop_contacts(deep);
   if (!comm.any(!deep.empty())) return {};
   // Facets of bodies that fit cross before anything moves.
-  const auto points = gather_points(same_faces(before, near), comm);
-  auto deep_before = deep_places(skin, edges, points, places, {range.least, 2 * range.largest}, comm);
+  const auto points = near.points_of(before, comm);
+  auto deep_before = deep_places(near, edges, points, places, {range.least, 2 * range.largest}, comm);
   drop_contacts(deep_before);
   const auto deepest = deepest_facets(deep_before, comm);
   std::vector<SentPlace> deeper;

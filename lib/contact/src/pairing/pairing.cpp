@@ -85,7 +85,7 @@ std::vector<ContactCandidate> find_contact_candidates(const mesh::Surface& skin,
                                                       const Communicator& comm)
 {
   const Lengths lengths{options.search_distance, options.interference, options.law == Law::bonded, diagonals(skin, bodies, comm)};
-  const auto near = gather_skin(near_others(skin, lengths, comm), kinematics, comm);
+  const auto near = gather_skin(PiecesOfBodies(skin, bodies, comm).near_others(skin, lengths), kinematics, comm);
   const Tree facets = tree_of(near.facet);
   std::map<Bodies, std::vector<Facing>> pairs;
   for (const auto& f : find_facing(near, facets, lengths, known, comm))

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <tuple>
 
 #include "search/boxes.hpp"
 
@@ -21,27 +20,15 @@ constexpr double rings_of_patches = 9;
 // Parts of a rank's piece of a body that the other ranks are told of.
 constexpr std::size_t most_boxes = 64;
 
-// A box round some faces of one body.
-struct Part {
-  std::array<double, 6> box;
-  double size;  // of its largest face
-  int body;
-};
+// By which a curved face may stick out of its corners, as a factor of its size.
+constexpr double of_curved = 1.2;
 
-// Of all ranks. Collective.
-std::vector<Part> parts_of(const mesh::Surface& skin, const std::vector<Box>& boxes, const std::vector<double>& sizes,
-                           const Communicator& comm)
+std::vector<Box> boxes_of(const auto& parts)
 {
-  std::map<int, std::vector<int>> of_body;
-  for (std::size_t f = 0; f < boxes.size(); ++f) of_body[skin.body[f]].push_back(static_cast<int>(f));
-  std::vector<Part> parts;
-  for (auto& [body, faces] : of_body)
-    halve(boxes, faces, std::max<std::size_t>(4, 2 * faces.size() / most_boxes), [&](const Box& box, std::span<const int> some) {
-      Part part{{box.min()[0], box.min()[1], box.min()[2], box.max()[0], box.max()[1], box.max()[2]}, 0, body};
-      for (const int f : some) part.size = std::max(part.size, sizes[at(f)]);
-      parts.push_back(part);
-    });
-  return comm.all_gather(parts);
+  std::vector<Box> boxes;
+  for (const auto& part : parts)
+    boxes.emplace_back(Point(part.box[0], part.box[1], part.box[2]), Point(part.box[3], part.box[4], part.box[5]));
+  return boxes;
 }
 
 }  // namespace
@@ -99,39 +86,85 @@ std::vector<double> sizes_of(const mesh::Surface& skin)
   return sizes;
 }
 
-mesh::Surface near_others(const mesh::Surface& skin, const Lengths& lengths, const Communicator& comm)
+// Of all ranks. Collective.
+std::vector<PiecesOfBodies::Part> PiecesOfBodies::parts_of(const mesh::Surface& skin, const Communicator& comm)
 {
   const auto boxes = boxes_of_faces(skin);
   const auto sizes = sizes_of(skin);
-  const auto parts = parts_of(skin, boxes, sizes, comm);
-  std::vector<Box> part_boxes;
-  std::vector<double> largest(lengths.diagonal.size(), 0.0);
-  for (const auto& part : parts) {
-    part_boxes.emplace_back(Point(part.box[0], part.box[1], part.box[2]), Point(part.box[3], part.box[4], part.box[5]));
-    largest[at(part.body)] = std::max(largest[at(part.body)], part.size);
-  }
-  const Tree tree(part_boxes);
+  std::map<int, std::vector<int>> of_body;
+  for (std::size_t f = 0; f < boxes.size(); ++f) of_body[skin.body[f]].push_back(static_cast<int>(f));
+  std::vector<Part> parts;
+  for (auto& [body, faces] : of_body)
+    halve(boxes, faces, std::max<std::size_t>(4, 2 * faces.size() / most_boxes), [&](const Box& box, std::span<const int> some) {
+      const auto &low = box.min(), &high = box.max();
+      Part part{{low[0], low[1], low[2], high[0], high[1], high[2]}, 0, body, comm.rank()};
+      for (const int f : some) part.size = std::max(part.size, sizes[at(f)]);
+      parts.push_back(part);
+    });
+  return comm.all_gather(parts);
+}
+
+PiecesOfBodies::PiecesOfBodies(const mesh::Surface& skin, int bodies, const Communicator& comm)
+    : parts_(parts_of(skin, comm)), boxes_(boxes_of(parts_)), tree_(boxes_), largest_(at(bodies), 0.0)
+{
+  for (const auto& part : parts_) largest_[at(part.body)] = std::max(largest_[at(part.body)], part.size);
+}
+
+mesh::Surface PiecesOfBodies::near_others(const mesh::Surface& skin, const Lengths& lengths) const
+{
+  const auto boxes = boxes_of_faces(skin);
+  const auto sizes = sizes_of(skin);
   std::vector<std::size_t> chosen;
   for (std::size_t f = 0; f < boxes.size(); ++f) {
     const int body = skin.body[f];
     double widest = 0;
-    for (std::size_t b = 0; b < largest.size(); ++b)
-      if (static_cast<int>(b) != body && largest[b] > 0)
-        widest = std::max(widest, lengths.margin(sizes[f], body, largest[b], static_cast<int>(b)));
-    if (tree.any_of(grown(boxes[f], widest), [&](int p) {
-          const auto& part = parts[at(p)];
+    for (std::size_t b = 0; b < largest_.size(); ++b)
+      if (static_cast<int>(b) != body && largest_[b] > 0)
+        widest = std::max(widest, lengths.margin(sizes[f], body, largest_[b], static_cast<int>(b)));
+    if (tree_.any_of(grown(boxes[f], widest), [&](int p) {
+          const auto& part = parts_[at(p)];
           return part.body != body &&
-                 grown(boxes[f], lengths.margin(sizes[f], body, part.size, part.body)).intersects(part_boxes[at(p)]);
+                 grown(boxes[f], lengths.margin(sizes[f], body, part.size, part.body)).intersects(boxes_[at(p)]);
         }))
       chosen.push_back(f);
   }
   return part_of(skin, chosen);
 }
 
+std::vector<std::vector<std::size_t>> PiecesOfBodies::needed_by_ranks(const mesh::Surface& near, double reach,
+                                                                      const std::vector<double>& size,
+                                                                      const Communicator& comm) const
+{
+  const auto looks = [&](double of_body) { return reach + of_body / 2; };
+  const double farthest = size.empty() ? reach : looks(std::ranges::max(size));
+  const auto boxes = boxes_of_faces(near);
+  std::vector<std::vector<std::size_t>> result(static_cast<std::size_t>(comm.size()));
+  std::vector<int> met;
+  for (std::size_t f = 0; f < boxes.size(); ++f) {
+    const double ring = of_curved * size[at(near.body[f])];
+    tree_.candidates(grown(boxes[f], farthest + ring), met);
+    for (const int p : met) {
+      const auto& part = parts_[at(p)];
+      auto& faces = result[at(part.rank)];
+      if (part.rank == comm.rank() || (!faces.empty() && faces.back() == f)) continue;
+      const double distance = part.body == near.body[f] ? ring : looks(size[at(part.body)]) + ring;
+      if (grown(boxes[f], distance).intersects(boxes_[at(p)])) faces.push_back(f);
+    }
+  }
+  return result;
+}
+
 Skin gather_skin(const mesh::Surface& near, fem::Kinematics kinematics, const Communicator& comm)
 {
+  auto [side, bodies] = gather_with_bodies(near, kinematics, comm);
+  return skin_of(std::move(side), std::move(bodies));
+}
+
+Skin skin_of(Side side, std::vector<int> body_of_face)
+{
   Skin skin;
-  std::tie(skin.side, skin.body) = gather_with_bodies(near, kinematics, comm);
+  skin.side = std::move(side);
+  skin.body = std::move(body_of_face);
   skin.face_id = skin.side.face_id;
   const auto& faces = skin.side.faces;
   for (std::size_t f = 0; f < faces.size(); ++f) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -48,10 +49,37 @@ std::vector<double> diagonals(const mesh::Surface& skin, int bodies, const Commu
 /// Of each face the longest distance of two corners.
 std::vector<double> sizes_of(const mesh::Surface& skin);
 
-/// This rank's faces that have to do with another body. Collective.
-mesh::Surface near_others(const mesh::Surface& skin, const Lengths& lengths, const Communicator& comm);
+/// Boxes round some faces each of the pieces of bodies that ranks have, the same on every rank.
+class PiecesOfBodies {
+ public:
+  /// Collective.
+  PiecesOfBodies(const mesh::Surface& skin, int bodies, const Communicator& comm);
 
-/// The near faces of all bodies, the same on every rank.
+  /// This rank's faces that have to do with another body.
+  mesh::Surface near_others(const mesh::Surface& skin, const Lengths& lengths) const;
+
+  /// For each rank the faces of `near` that it has to know, besides its own, where places on its own look for those of other
+  /// bodies as far as `reach` and half the size of a face: those, what meets its own in a node, and the neighbours of all these.
+  /// `size`: of the largest face in `near` on any rank, by bodies.
+  std::vector<std::vector<std::size_t>> needed_by_ranks(const mesh::Surface& near, double reach, const std::vector<double>& size,
+                                                        const Communicator& comm) const;
+
+ private:
+  // A box round some faces of one body.
+  struct Part {
+    std::array<double, 6> box;
+    double size;  // of its largest face
+    int body, rank;
+  };
+  static std::vector<Part> parts_of(const mesh::Surface& skin, const Communicator& comm);
+
+  std::vector<Part> parts_;
+  std::vector<Box> boxes_;
+  Tree tree_;
+  std::vector<double> largest_;  // size of any face, by bodies
+};
+
+/// The near faces of bodies: all of them, the same on every rank, or those that a rank has to know.
 struct Skin {
   Side side;
   std::vector<Global> face_id;
@@ -65,7 +93,8 @@ struct Skin {
   std::size_t count() const { return body.size(); }
 };
 
-/// Collective.
+Skin skin_of(Side side, std::vector<int> body_of_face);
+/// Of all ranks. Collective.
 Skin gather_skin(const mesh::Surface& near, fem::Kinematics kinematics, const Communicator& comm);
 
 }  // namespace mortise::contact

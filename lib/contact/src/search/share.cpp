@@ -100,9 +100,7 @@ Side deliver(const mesh::Surface& surface, const std::vector<Box>& boxes, const 
              std::span<const int> owner, double distance, fem::Kinematics kinematics, std::vector<SentFace>& faces,
              const Communicator& comm)
 {
-  const auto ranks = static_cast<std::size_t>(comm.size());
-  std::vector<std::vector<char>> send(ranks);
-  std::vector<std::vector<std::size_t>> chosen(ranks);
+  std::vector<std::vector<std::size_t>> chosen(static_cast<std::size_t>(comm.size()));
   std::vector<int> met;
   for (std::size_t f = 0; f < boxes.size(); ++f) {
     parts.candidates(grown(boxes[f], distance), met);
@@ -111,22 +109,8 @@ Side deliver(const mesh::Surface& surface, const std::vector<Box>& boxes, const 
       if (faces_of.empty() || faces_of.back() != f) faces_of.push_back(f);
     }
   }
-  std::vector<std::size_t> taken(surface.points.size(), ranks);  // by the rank that a node went to last
-  for (std::size_t r = 0; r < ranks; ++r) {
-    SentSurface to_rank;
-    for (const std::size_t f : chosen[r]) {
-      to_rank.faces.push_back(pack_face(surface, f));
-      if (!owner.empty()) to_rank.faces.back().mark = owner[f];
-      for (const Local n : surface.faces[f]) {
-        auto& last = taken[static_cast<std::size_t>(n)];
-        if (last != r) to_rank.nodes.push_back(pack_node(surface, static_cast<std::size_t>(n)));
-        last = r;
-      }
-    }
-    if (!to_rank.faces.empty()) send[r] = pack(to_rank);
-  }
   SentSurface received;
-  for (const auto& part : comm.exchange(send)) unpack(part, received);
+  for (const auto& part : exchange_faces(surface, chosen, owner, comm)) unpack(part, received);
   faces = std::move(received.faces);
   return assemble(std::move(received.nodes), faces, kinematics);
 }

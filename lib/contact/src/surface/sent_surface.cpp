@@ -1,10 +1,35 @@
 #include "surface/sent_surface.hpp"
 
 #include <unordered_map>
+#include <utility>
 
 #include "base/packed.hpp"
 
 namespace mortise::contact {
+
+namespace {
+
+// Some faces of a surface, or only their nodes, for each rank.
+std::vector<std::vector<char>> messages_of(const mesh::Surface& surface, std::span<const std::vector<std::size_t>> chosen,
+                                           std::span<const int> marks, bool nodes_alone)
+{
+  std::vector<std::vector<char>> messages;
+  std::vector<std::size_t> taken(surface.points.size(), chosen.size());  // by the rank that a node goes to last
+  for (std::size_t r = 0; r < chosen.size(); ++r) {
+    SentSurface to_rank;
+    for (const std::size_t f : chosen[r]) {
+      if (!nodes_alone) to_rank.faces.push_back(pack_face(surface, f));
+      if (!nodes_alone && !marks.empty()) to_rank.faces.back().mark = marks[f];
+      for (const Local n : surface.faces[f])
+        if (std::exchange(taken[static_cast<std::size_t>(n)], r) != r)
+          to_rank.nodes.push_back(pack_node(surface, static_cast<std::size_t>(n)));
+    }
+    messages.push_back(to_rank.nodes.empty() ? std::vector<char>() : pack(to_rank));
+  }
+  return messages;
+}
+
+}  // namespace
 
 SentNode pack_node(const mesh::Surface& surface, std::size_t node)
 {
@@ -60,6 +85,18 @@ void unpack(std::span<const char> message, SentSurface& surface)
         face.nodes[static_cast<std::size_t>(k)] = ids[static_cast<std::size_t>(*node++)];
     }
   }
+}
+
+std::vector<std::vector<char>> exchange_faces(const mesh::Surface& surface, std::span<const std::vector<std::size_t>> chosen,
+                                              std::span<const int> marks, const Communicator& comm)
+{
+  return comm.exchange(messages_of(surface, chosen, marks, false));
+}
+
+std::vector<std::vector<char>> exchange_nodes(const mesh::Surface& surface, std::span<const std::vector<std::size_t>> chosen,
+                                              const Communicator& comm)
+{
+  return comm.exchange(messages_of(surface, chosen, {}, true));
 }
 
 }  // namespace mortise::contact

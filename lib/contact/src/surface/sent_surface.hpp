@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/communicator.hpp"
 #include "mesh/mesh.hpp"
 
 namespace mortise::contact {
@@ -31,5 +32,13 @@ struct SentSurface {
 std::vector<char> pack(const SentSurface& surface);
 /// Appends what one message, or several behind each other, hold.
 void unpack(std::span<const char> message, SentSurface& surface);
+
+/// Sends the faces chosen[r] of a surface, and their nodes, to rank r; `marks`: of all faces, or none. The messages that came
+/// from each rank. Collective.
+std::vector<std::vector<char>> exchange_faces(const mesh::Surface& surface, std::span<const std::vector<std::size_t>> chosen,
+                                              std::span<const int> marks, const Communicator& comm);
+/// The same with the nodes alone.
+std::vector<std::vector<char>> exchange_nodes(const mesh::Surface& surface, std::span<const std::vector<std::size_t>> chosen,
+                                              const Communicator& comm);
 
 }  // namespace mortise::contact

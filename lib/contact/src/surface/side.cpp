@@ -184,10 +184,14 @@ std::vector<Point> gather_points(const mesh::Surface& surface, const Communicato
 {
   SentSurface mine;
   for (std::size_t i = 0; i < surface.node_id.size(); ++i) mine.nodes.push_back(pack_node(surface, i));
-  auto all = from_all(mine, comm);
-  each_once(all.nodes);
+  return points_in_order(from_all(mine, comm).nodes);
+}
+
+std::vector<Point> points_in_order(std::vector<SentNode> nodes)
+{
+  each_once(nodes);
   std::vector<Point> points;
-  for (const auto& node : all.nodes) points.emplace_back(node.x[0], node.x[1], node.x[2]);
+  for (const auto& node : nodes) points.emplace_back(node.x[0], node.x[1], node.x[2]);
   return points;
 }
 

@@ -70,5 +70,7 @@ std::pair<Side, std::vector<int>> gather_with_bodies(const mesh::Surface& surfac
 
 /// The points of that side alone. Collective.
 std::vector<Point> gather_points(const mesh::Surface& surface, const Communicator& comm);
+/// The points of a side of these nodes.
+std::vector<Point> points_in_order(std::vector<SentNode> nodes);
 
 }  // namespace mortise::contact
