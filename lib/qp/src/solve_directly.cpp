@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/lazy.hpp"
 #include "make_solvers.hpp"
 
 namespace mortise::qp {
@@ -18,6 +19,8 @@ class DirectSolver : public Solver {
       : programme_(programme),
         means_(means),
         matrices_(means.make_explicit()),
+        has_others_(static_cast<bool>(matrices_.instead)),
+        others_(matrices_.instead),
         faces_(face_newton_with(matrices_.inverse.get(), programme, means))
   {
   }
@@ -111,24 +114,17 @@ class DirectSolver : public Solver {
     if (found.converged && matrices_.rough_products)
       if (auto accepted = improve(problem, found, goal).accepted) return {found, std::move(accepted)};
     if (found.converged && matrices_.instead_of_none) return {found};
-    if (!has_others()) return {found};
-    auto next = others_->solve(problem.right, problem.set);
+    if (!has_others_) return {found};
+    auto next = others_.get().solve(problem.right, problem.set);
     if (!next.converged) return {found};
     if (found.converged && !next.settled) return {found};
     take_others();
     return {next};
   }
 
-  // Makes them where they are to be had.
-  bool has_others()
-  {
-    if (matrices_.instead) others_ = std::exchange(matrices_.instead, {})();
-    return others_.has_value();
-  }
-
   void take_others()
   {
-    std::swap(matrices_, *others_);
+    std::swap(matrices_, others_.get());
     faces_ = face_newton_with(matrices_.inverse.get(), programme_, means_);
   }
 
@@ -139,8 +135,8 @@ class DirectSolver : public Solver {
     auto [accepted, exact] = improve(problem, found, goal);
     if (accepted || exact || !found.reaction || !goal.energy_norm || matrices_.instead_of_none) return accepted;
     const double error = judge(problem, found).error;
-    if (!(error > Limits::much * goal.energy_norm(found.x, found.nu)) || !has_others()) return {};
-    auto next = others_->solve(problem.right, problem.set);
+    if (!(error > Limits::much * goal.energy_norm(found.x, found.nu)) || !has_others_) return {};
+    auto next = others_.get().solve(problem.right, problem.set);
     if (!next.converged || !next.settled || !next.reaction) return {};
     take_others();
     accepted = improve(problem, next, goal).accepted;
@@ -183,10 +179,10 @@ class DirectSolver : public Solver {
       if (!will_do()) take_judged(right, radii_at(known->by_matrices->x), goal, *known->by_matrices, *solution);
     };
     judge_matrices();
-    if (will_do() || !goal.energy_norm || matrices_.instead_of_none || !has_others()) return solution;
+    if (will_do() || !goal.energy_norm || matrices_.instead_of_none || !has_others_) return solution;
     const FeasibleSet set = programme_.set.with_radii(radii_at(known->by_matrices->x));
     const Problem problem(programme_, right, set);
-    auto next = others_->solve(right, set);
+    auto next = others_.get().solve(right, set);
     if (!next.converged || !next.settled || !next.reaction) return solution;
     take_others();
     improve(problem, next, goal);
@@ -327,7 +323,8 @@ class DirectSolver : public Solver {
   Programme programme_;
   Means means_;
   ExplicitProgramme matrices_;
-  std::optional<ExplicitProgramme> others_;  // made where they were needed
+  const bool has_others_;
+  const Lazy<ExplicitProgramme> others_;  // made where they are needed, if there are any
   std::unique_ptr<Solver> faces_;
 };
 
