@@ -73,7 +73,7 @@ class DenseSystem : public ContactSystem {
   const Eigen::LLT<Eigen::MatrixXd>& factor_of_w_;
   Eigen::VectorXd springs_;           // on motions
   Eigen::LLT<Eigen::MatrixXd> gram_;  // by which a lack of H x - C nu is measured
-  std::optional<MoveFactor> factor_;  // of an earlier guess
+  std::optional<MoveFactor> factor_;  // of all that is closed, then of the last guess that took its own; none of few unknowns
 };
 
 }  // namespace mortise::qp
