@@ -45,6 +45,7 @@ target_link_libraries(mortise_amesos2 INTERFACE ${Amesos2_LIBRARIES} mortise_tpe
 
 find_library(METIS_LIBRARY metis REQUIRED)
 find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+find_library(UMFPACK_LIBRARY umfpack REQUIRED)
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
 find_library(GMSH_LIBRARY gmsh REQUIRED)
 find_library(MUPARSER_LIBRARY muparser REQUIRED)

@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "base/extended.hpp"
+#include "base/sparse_lu.hpp"
 #include "base/submatrix.hpp"
 
 namespace mortise {
@@ -182,6 +184,47 @@ TEST(SymmetricProduct, IsThatOfTheDenseMatrix)
         EXPECT_EQ(has_column_blocks(lower, block), a(n - 1, 0) == 0);
       }
     }
+}
+
+// Of constraints without a diagonal, too.
+TEST(SparseLu, SolvesWhatIsIndefinite)
+{
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(9, 9);
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(3, 6), c = Eigen::MatrixXd::Random(3, 6);
+  a.topLeftCorner(6, 6) = Eigen::MatrixXd::Random(6, 6) + 4 * Eigen::MatrixXd::Identity(6, 6);
+  a.topRightCorner(6, 3) = b.transpose();
+  a.bottomLeftCorner(3, 6) = -c;
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(9, -1, 3);
+  const auto factor = SparseLu::factorized(a.sparseView());
+  ASSERT_TRUE(factor);
+  EXPECT_LT((factor->solve(a * x) - x).norm(), 1e-11 * x.norm());
+}
+
+TEST(SparseLu, RefusesWhatIsSingular)
+{
+  Eigen::MatrixXd a = Eigen::MatrixXd::Identity(4, 4);
+  a(3, 3) = 0;
+  EXPECT_FALSE(SparseLu::factorized(a.sparseView()));
+}
+
+// Figures that double precision has no room for.
+TEST(ExtendedProducts, KeepWhatDoublePrecisionLoses)
+{
+  SparseMatrix lower(2, 2);
+  lower.insert(0, 0) = 0x1p35;
+  lower.insert(1, 0) = -0x1p35;
+  lower.insert(1, 1) = 0x1p35;
+  const long double little = 0x1p-58L;
+  ExtendedVector x(2), sums = ExtendedVector::Zero(2);
+  x << 1 + little, 1;
+  subtract_product(lower, x, sums);
+  EXPECT_EQ(static_cast<double>(sums[0]), static_cast<double>(-0x1p35L * little));
+  EXPECT_EQ(static_cast<double>(sums[1]), static_cast<double>(0x1p35L * little));
+  Eigen::SparseMatrix<double, Eigen::RowMajor, int> b(1, 2);
+  b.insert(0, 1) = 2;
+  subtract_transposed_product(b, Eigen::VectorXd::Constant(1, 0x1p-70), sums);
+  EXPECT_EQ(static_cast<double>(sums[0]), static_cast<double>(-0x1p35L * little));
+  EXPECT_EQ(static_cast<double>(sums[1]), static_cast<double>(0x1p35L * little - 0x1p-69L));
 }
 
 }  // namespace
