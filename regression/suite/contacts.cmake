@@ -258,3 +258,11 @@ mortise_regression(belt VARIANT .above DIRECTORY hard/decks EXPECTED cases/belt.
                    SET mesh.constants.t=1 "steps=[{name: pull, scale: {large: 2.556}}]")
 mortise_regression(press_fit VARIANT .auto DIRECTORY ../inputs/press_fit EXPECTED inputs/press_fit.expected.json RANKS 1 STUDY_RANKS 2
                    SET "contacts=[{auto: true, interference: 0.05}]")
+
+mortise_regression(clamped_sheets RANKS 1 STUDY_RANKS 2 3)
+mortise_regression(clamped_sheets VARIANT .1e-4 EXPECTED cases/clamped_sheets.expected.json RANKS 1 SET solver.tolerance=1e-4)
+mortise_regression(clamped_sheets VARIANT .prism15 EXPECTED cases/clamped_sheets.prism15.expected.json RANKS 1
+                   SET mesh.blocks.lower.element=prism15 mesh.blocks.upper.element=prism15)
+mortise_regression(clamped_sheets VARIANT .2000 EXPECTED cases/clamped_sheets.2000.expected.json RANKS 1 STUDY_RANKS 2 3
+                   SET mesh.blocks.lower.size=[100,100,0.05] mesh.blocks.upper.size=[100,100,0.05] mesh.blocks.upper.origin=[0,0,0.05]
+                       loads.0.pressure=4.2e-9)

@@ -100,8 +100,8 @@ SparseProblem::Turn SparseProblem::turn(const DualSystem& system, bool slender)
   return quick || slender || work < some_seconds ? Turn::second : Turn::never;
 }
 
-SparseProblem::SparseProblem(const DualSystem& system, bool patient)
-    : system_(system), inverse_([this] { return make_inverse(); })
+SparseProblem::SparseProblem(const DualSystem& system, bool slender)
+    : system_(system), slender_(slender), inverse_([this] { return make_inverse(); })
 {
   const auto& comm = system.communicator();
   const auto& jump = system.jump();
@@ -145,7 +145,7 @@ SparseProblem::SparseProblem(const DualSystem& system, bool patient)
     }
     elimination_ = std::make_unique<SupportElimination>(std::move(rows), as_vector(compliance), set);
     stiffness.conservativeResize(unknowns_ + others_, unknowns_ + others_);
-    whole_ = std::make_unique<WholeProblem>(std::move(stiffness), *elimination_, patient);
+    whole_ = std::make_unique<WholeProblem>(std::move(stiffness), *elimination_, slender);
   });
 }
 
@@ -269,7 +269,8 @@ std::unique_ptr<const WholeInverse> SparseProblem::make_inverse() const
   SparseMatrix regularised = stiffness_on_root(true);
   std::unique_ptr<const WholeInverse> inverse;
   collectively(comm, [&] {
-    if (comm.root()) inverse = std::make_unique<WholeInverse>(std::move(regularised), of_inverse_ ? *of_inverse_ : *elimination_);
+    if (!comm.root()) return;
+    inverse = std::make_unique<WholeInverse>(std::move(regularised), of_inverse_ ? *of_inverse_ : *elimination_, slender_);
   });
   return inverse;
 }

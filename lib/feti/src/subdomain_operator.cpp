@@ -261,17 +261,10 @@ Eigen::VectorXd ElasticSubdomain::residual(const double* b, const double* x) con
 {
   const Eigen::Map<const Eigen::VectorXd> right(b, size()), left(x, size());
   if (inaccuracy_ <= inaccurate) return right - apply(left) - fixing_.selfadjointView<Eigen::Lower>() * left;
-  std::vector<long double> sums(b, b + size());
-  for (const SparseMatrix* matrix : {&stiffness_, &fixing_})
-    for (int j = 0; j < size(); ++j)
-      for (SparseMatrix::InnerIterator entry(*matrix, j); entry; ++entry) {
-        const auto value = static_cast<long double>(entry.value());
-        sums[static_cast<std::size_t>(entry.row())] -= value * x[j];
-        if (entry.row() != j) sums[static_cast<std::size_t>(j)] -= value * x[entry.row()];
-      }
-  Eigen::VectorXd result(size());
-  std::transform(sums.begin(), sums.end(), result.begin(), [](long double sum) { return static_cast<double>(sum); });
-  return result;
+  ExtendedVector sums = right.cast<long double>();
+  const ExtendedVector exact = left.cast<long double>();
+  for (const SparseMatrix* matrix : {&stiffness_, &fixing_}) subtract_product(*matrix, exact, sums);
+  return sums.cast<double>();
 }
 
 Eigen::VectorXd ElasticSubdomain::apply(const Eigen::VectorXd& u) const

@@ -69,12 +69,12 @@ VectorXd SupportElimination::prescribed(const VectorXd& bounds) const
   return u;
 }
 
-VectorXd SupportElimination::complete(const VectorXd& multipliers, const VectorXd& forces) const
+VectorXd SupportElimination::complete(const VectorXd& multipliers, ExtendedVector forces) const
 {
   VectorXd x = VectorXd::Zero(rows_.rows());
   x(kept_) = multipliers;
-  const VectorXd left = forces - rows_.transpose() * x;
-  for (const auto& support : supports_) x[support.row] = left[support.unknown] / support.coefficient;
+  subtract_transposed_product(rows_, x, forces);
+  for (const auto& support : supports_) x[support.row] = static_cast<double>(forces[support.unknown]) / support.coefficient;
   return x;
 }
 
@@ -130,31 +130,33 @@ WholeProblem::Solution WholeProblem::solve(const VectorXd& f, const VectorXd& c,
     from = {near->x(kept), last_(free), true, 0, last_reaction_};
   const auto found = newton_.solve(load(free), gap(kept), elimination_.reduced(set), near ? &from : nullptr);
   u(free) = found.nu;
-  load = f;
-  load -= stiffness_.selfadjointView<Eigen::Lower>() * u;
-  Solution result{elimination_.complete(found.x, load), u, VectorXd::Zero(c.size()), found.converged, found.steps, found.settled};
+  ExtendedVector exact_u = u.cast<long double>(), left = f.cast<long double>();
+  if (found.nu_rest.size() > 0) exact_u(free) += found.nu_rest.cast<long double>();
+  subtract_product(stiffness_, exact_u, left);
+  Solution result{
+      elimination_.complete(found.x, std::move(left)), u, VectorXd::Zero(c.size()), found.converged, found.steps, found.settled};
   for (const Local i : set.constrained()) result.reaction[i] = found.reaction[elimination_.number(i)];
   last_ = std::move(u);
   last_reaction_ = found.reaction;
   return result;
 }
 
-WholeInverse::WholeInverse(SparseMatrix regularised, const SupportElimination& elimination)
-    : regularised_(std::move(regularised)), elimination_(elimination), inverse_(elimination.reduced(regularised_))
+WholeInverse::WholeInverse(SparseMatrix regularised, const SupportElimination& elimination, bool slender)
+    : regularised_(std::move(regularised)), elimination_(elimination), inverse_(elimination.reduced(regularised_), slender)
 {
 }
 
 VectorXd WholeInverse::times(const VectorXd& r) const
 {
   const auto& free = elimination_.free();
-  VectorXd u = elimination_.prescribed(r);
-  VectorXd force = VectorXd::Zero(u.size());
-  force -= regularised_.selfadjointView<Eigen::Lower>() * u;
-  const VectorXd jump = r - elimination_.rows() * u;
-  const auto found = inverse_.solve(jump(elimination_.kept()), force(free));
+  ExtendedVector u = elimination_.prescribed(r).cast<long double>(), force = ExtendedVector::Zero(u.size());
+  subtract_product(regularised_, u, force);
+  const VectorXd jump = r - elimination_.rows() * u.cast<double>();
+  const auto found = inverse_.solve(jump(elimination_.kept()), force(free).cast<double>());
   u(free) = found.u;
-  force = regularised_.selfadjointView<Eigen::Lower>() * u;
-  return elimination_.complete(found.x, force);
+  force.setZero();
+  subtract_product(regularised_, u, force);
+  return elimination_.complete(found.x, -force);
 }
 
 }  // namespace mortise::feti

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/cholesky.hpp"
+#include "base/extended.hpp"
 #include "qp/sparse_newton.hpp"
 
 namespace mortise::feti {
@@ -27,7 +28,7 @@ class SupportElimination {
   /// The unknowns that supports hold, over all unknowns, where their rows are to see these bounds.
   Eigen::VectorXd prescribed(const Eigen::VectorXd& bounds) const;
   /// The multipliers of all rows from those of kept(), where supports take up what `forces` lack.
-  Eigen::VectorXd complete(const Eigen::VectorXd& multipliers, const Eigen::VectorXd& forces) const;
+  Eigen::VectorXd complete(const Eigen::VectorXd& multipliers, ExtendedVector forces) const;
 
  private:
   // A row that holds one unknown.
@@ -93,9 +94,9 @@ class WholeProblem {
 /// (B K^+ B' + S)^-1. Heavy: moves, does not copy.
 class WholeInverse {
  public:
-  /// `regularised`: what K^+ is the inverse of, lower triangle; `elimination` of the same unknowns outlives it. Throws as
-  /// qp::SparseInverse.
-  WholeInverse(SparseMatrix regularised, const SupportElimination& elimination);
+  /// `regularised`: what K^+ is the inverse of, lower triangle; `elimination` of the same unknowns outlives it. `slender`: with
+  /// factors that keep what is soft. Throws as qp::SparseInverse.
+  WholeInverse(SparseMatrix regularised, const SupportElimination& elimination, bool slender);
   /// Times r.
   Eigen::VectorXd times(const Eigen::VectorXd& r) const;
 

@@ -1,3 +1,5 @@
+#include "joined_stiffness.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -5,7 +7,6 @@
 #include "base/interruption.hpp"
 #include "base/submatrix.hpp"
 #include "gmres.hpp"
-#include "sparse_system.hpp"
 
 namespace mortise::qp {
 

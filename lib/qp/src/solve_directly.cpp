@@ -1,5 +1,6 @@
 // The row `direct` of the table of solvers: an exact solution by matrices, from which face Newton starts with A^-1 as its
 // preconditioner. It needs no more than the products that show that the start is one.
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,6 +20,7 @@ class DirectSolver : public Solver {
       : programme_(programme),
         means_(means),
         matrices_(means.make_explicit()),
+        better_inverse_(matrices_.rough_products ? matrices_.inverse : nullptr),
         has_others_(static_cast<bool>(matrices_.instead)),
         others_(matrices_.instead),
         faces_(face_newton_with(matrices_.inverse.get(), programme, means))
@@ -214,18 +216,42 @@ class DirectSolver : public Solver {
   {
     Solution result(found.x, found.x, found.nu);
     problem.hessian.gradient(found.x, problem.right, result.gradient);
-    Vector defect(result.gradient, Teuchos::Copy), error(defect.getMap());
+    Vector defect(result.gradient, Teuchos::Copy);
     defect.update(-1, *found.reaction, 1);
     problem.equality.add_transpose(1, found.nu, defect);
     problem.equality.project(defect);
-    matrices_.inverse->apply(defect, error);
-    result.error = std::sqrt(std::max(defect.dot(error), 0.0));
+    result.error = std::sqrt(std::max(energy(defect, problem.equality), 0.0));
     result.projected_gradient = defect.norm2() / relative_size(problem, limits::Every::finest);
     const auto& equality = problem.equality;
     if (const double forces = found.x.norm2(); equality.size() > 0 && forces > 0)
       result.equality = equality.norm(problem.right.e - equality.apply(found.x)) / forces;
     result.outer_iterations = 1;
     return result;
+  }
+
+  // d'A^-1 d; of slender bodies about the least of d + G'nu, for what motions do in a defect they may do to all its rows. That is
+  // made anew from what is left of d: a difference of two energies would have none of its figures.
+  double energy(const Vector& defect, const EqualityConstraint& equality) const
+  {
+    auto& inverse = better_inverse_ ? *better_inverse_ : *matrices_.inverse;
+    Vector error(defect.getMap());
+    inverse.apply(defect, error);
+    const Eigen::Index motions = equality.size();
+    if (motions == 0 || motions > Limits::most_motions || !better_inverse_) return defect.dot(error);
+    Eigen::MatrixXd work(motions, motions);
+    for (Eigen::Index i = 0; i < motions; ++i) {
+      Vector push(defect.getMap()), answer(defect.getMap());
+      equality.add_transpose(1, Eigen::VectorXd::Unit(motions, i), push);
+      inverse.apply(push, answer);
+      work.col(i) = equality.apply(answer);
+    }
+    const Eigen::LDLT<Eigen::MatrixXd> factor(work);
+    Vector left(defect, Teuchos::Copy);
+    for (int step = 0; step < Limits::steps_to_least_energy; ++step) {
+      equality.add_transpose(-1, factor.solve(equality.apply(error)), left);
+      inverse.apply(left, error);
+    }
+    return left.dot(error);
   }
 
   // The same if it will do.
@@ -323,6 +349,8 @@ class DirectSolver : public Solver {
   Programme programme_;
   Means means_;
   ExplicitProgramme matrices_;
+  // Of the first matrices, where others may take their place and have an A^-1 that does not feel what they have lost.
+  const std::shared_ptr<ActiveSetPreconditioner> better_inverse_;
   const bool has_others_;
   const Lazy<ExplicitProgramme> others_;  // made where they are needed, if there are any
   std::unique_ptr<Solver> faces_;

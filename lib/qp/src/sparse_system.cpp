@@ -9,12 +9,14 @@ namespace mortise::qp {
 
 namespace {
 
-constexpr double way_of_path = 1e-10;  // compliance of a row over its own, along the path
-constexpr double way_of_guess = 1e-6;  // and in a guess, whose solution is repeated
+constexpr double way_of_path = 1e-10;   // compliance of a row over its own, along the path
+constexpr double way_of_guess = 1e-6;   // and in a guess, whose solution is repeated;
+constexpr double way_of_whole = 1e-10;  // where nothing is eliminated that could become too stiff
 constexpr int repeats_of_path = 2;
-constexpr int repeats_of_guess = 8;    // at most,
-constexpr double nearer_repeat = 0.5;  // as long as each leaves less than this of what the one before has left
-constexpr double softest_ratio = 1e4;  // largest W_ii over own that is worth softening for: plates bend that much
+constexpr int repeats_of_guess = 8;     // at most,
+constexpr double nearer_repeat = 0.5;   // as long as each leaves less than this of what the one before has left
+constexpr int repeats_of_balance = 20;  // so, too
+constexpr double softest_ratio = 1e4;   // largest W_ii over own that is worth softening for: plates bend that much
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -64,26 +66,6 @@ std::vector<MatrixXd> zeros(const std::vector<JoinedStiffness::Block>& blocks)
   return result;
 }
 
-// Sums of these terms decide about forces of which a thin body needs the seventeenth figure: its bending is 1e13 times as soft as
-// its cells are.
-using Extended = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-
-// -K u - B'x - e.
-VectorXd lacking_forces(const SparseMatrices& matrices, const VectorXd& x, const Extended& u, const VectorXd& e)
-{
-  Extended sums = -e.cast<long double>();
-  for (int j = 0; j < matrices.k.cols(); ++j)
-    for (SparseMatrix::InnerIterator entry(matrices.k, j); entry; ++entry) {
-      const auto value = static_cast<long double>(entry.value());
-      sums[entry.row()] -= value * u[j];
-      if (entry.row() != j) sums[j] -= value * u[entry.row()];
-    }
-  for (int row = 0; row < matrices.b.rows(); ++row)
-    for (decltype(matrices.b)::InnerIterator entry(matrices.b, row); entry; ++entry)
-      sums[entry.col()] -= static_cast<long double>(entry.value()) * x[row];
-  return sums.cast<double>();
-}
-
 VectorXd times(const std::vector<JoinedStiffness::Block>& blocks, const std::vector<MatrixXd>& matrices, const VectorXd& x)
 {
   VectorXd result(x.size());
@@ -98,8 +80,12 @@ VectorXd times(const std::vector<JoinedStiffness::Block>& blocks, const std::vec
 
 }  // namespace
 
-SparseSystem::SparseSystem(const SparseMatrices& matrices, const FeasibleSet& set)
-    : matrices_(matrices), diagonal_(matrices.k.diagonal()), own_(matrices.s), stiffness_(matrices, blocks_of(set, unknowns()))
+SparseSystem::SparseSystem(const SparseMatrices& matrices, const FeasibleSet& set, Factors factors)
+    : matrices_(matrices),
+      factors_(factors),
+      diagonal_(matrices.k.diagonal()),
+      own_(matrices.s),
+      stiffness_(matrices, blocks_of(set, unknowns()))
 {
   for (int row = 0; row < matrices.b.rows(); ++row)
     for (decltype(matrices_.b)::InnerIterator it(matrices_.b, row); it; ++it)
@@ -134,15 +120,14 @@ double SparseSystem::square_of_rounding(const VectorXd& x, const VectorXd& u) co
   return square(force);
 }
 
-// What moves in a guess, block by block: a = Y (E (B u - ..) ..), Y the inverse of what E S T and curvatures are, which gives way
-// a little more.
+// What moves in a guess, block by block: a with E (S x + .. - B u) + curvatures a = .., x = base + T a.
 struct SparseSystem::Moving {
-  std::vector<MatrixXd> trial, test, inverse;  // T, E and Y of each block
+  BlockEquations equations;  // C: what E S T and curvatures are, which gives way a little more
   std::vector<VectorXd> curvature;
 
   VectorXd extend(const std::vector<JoinedStiffness::Block>& blocks, const std::vector<VectorXd>& a, VectorXd x) const
   {
-    for (std::size_t k = 0; k < blocks.size(); ++k) x(blocks[k]) += trial[k] * a[k];
+    for (std::size_t k = 0; k < blocks.size(); ++k) x(blocks[k]) += equations.trial[k] * a[k];
     return x;
   }
 };
@@ -150,6 +135,7 @@ struct SparseSystem::Moving {
 SparseSystem::Moving SparseSystem::moving(const Guess& guess) const
 {
   const auto& blocks = stiffness_.blocks();
+  const double way = factors_ == Factors::whole ? way_of_whole : way_of_guess;
   std::vector<std::vector<const Move*>> of_block(blocks.size());
   for (const auto& move : guess.moves)
     of_block[static_cast<std::size_t>(stiffness_.in_block(move.index[0]).block)].push_back(&move);
@@ -170,50 +156,57 @@ SparseSystem::Moving SparseSystem::moving(const Guess& guess) const
     const VectorXd own = own_(blocks[k]), gives = matrices_.s(blocks[k]) + guess.softening(blocks[k]);
     MatrixXd compliance = test * gives.asDiagonal() * trial;
     compliance.diagonal() += curvature;
-    compliance += way_of_guess * (test * own.asDiagonal() * test.transpose());
-    result.inverse.push_back(count > 0 ? MatrixXd(compliance.inverse()) : MatrixXd(0, 0));
-    result.trial.push_back(std::move(trial));
-    result.test.push_back(std::move(test));
+    compliance += way * (test * own.asDiagonal() * test.transpose());
+    result.equations.compliance.push_back(std::move(compliance));
+    result.equations.trial.push_back(std::move(trial));
+    result.equations.test.push_back(std::move(test));
     result.curvature.push_back(std::move(curvature));
   }
   return result;
+}
+
+// None if the states hold nothing.
+std::unique_ptr<LinearFactor> SparseSystem::factor_of(const Moving& moving, bool symmetric)
+{
+  const auto& [trial, test, compliance] = moving.equations;
+  if (factors_ == Factors::whole) return saddle_factor(matrices_, stiffness_.blocks(), moving.equations);
+  std::vector<MatrixXd> inverse, near;
+  for (std::size_t k = 0; k < trial.size(); ++k) {
+    inverse.push_back(compliance[k].rows() > 0 ? MatrixXd(compliance[k].inverse()) : MatrixXd(0, 0));
+    near.push_back(symmetric ? MatrixXd(trial[k] * inverse[k] * test[k])
+                             : MatrixXd(test[k].transpose() * answered(inverse[k]) * test[k]));
+  }
+  return eliminated_factor(stiffness_, moving.equations, std::move(inverse), near);
 }
 
 void SparseSystem::solve(const Guess& guess, const VectorXd& b, const VectorXd& e, VectorXd& x, VectorXd& u)
 {
   const auto& blocks = stiffness_.blocks();
   const Moving moving = this->moving(guess);
-  std::vector<MatrixXd> z, near;
-  std::vector<VectorXd> amount;
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    z.emplace_back(moving.trial[k] * moving.inverse[k] * moving.test[k]);
-    near.push_back(guess.symmetric ? z[k] : MatrixXd(moving.test[k].transpose() * answered(moving.inverse[k]) * moving.test[k]));
-    amount.emplace_back(VectorXd::Zero(moving.test[k].rows()));  // what rows share out stays even
-  }
-  const auto factor = stiffness_.factorize(std::move(z), near);
-  if (!factor) {  // states that hold nothing
+  const auto factor = factor_of(moving, guess.symmetric);
+  if (!factor) {
     x.setConstant(std::numeric_limits<double>::quiet_NaN());
     return;
   }
+  std::vector<VectorXd> amount;
+  for (const auto& test : moving.equations.test)
+    amount.emplace_back(VectorXd::Zero(test.rows()));  // what rows share out stays even
   double before = std::numeric_limits<double>::infinity();
-  Extended exact_u = u.cast<long double>();
+  ExtendedVector exact_u = u.cast<long double>();
   for (int repeat = 0; repeat < repeats_of_guess; ++repeat) {
     x = moving.extend(blocks, amount, guess.base);
     u = exact_u.cast<double>();
     const VectorXd felt = give(x) + guess.softening.cwiseProduct(x) + push(u) - b;
     const VectorXd missing = lacking_forces(matrices_, x, exact_u, e);
-    std::vector<VectorXd> change;
+    std::vector<VectorXd> lacking;
     double square = this->square(missing);
     for (std::size_t k = 0; k < blocks.size(); ++k) {
-      const VectorXd lacking = -(moving.test[k] * felt(blocks[k])) - moving.curvature[k].cwiseProduct(amount[k]);
-      square += lacking.squaredNorm();
-      change.emplace_back(moving.inverse[k] * lacking);
+      lacking.emplace_back(-(moving.equations.test[k] * felt(blocks[k])) - moving.curvature[k].cwiseProduct(amount[k]));
+      square += lacking.back().squaredNorm();
     }
-    const VectorXd pushed = moving.extend(blocks, change, VectorXd::Zero(x.size()));
-    const VectorXd step = factor->solve(missing - matrices_.b.transpose() * pushed), jump = matrices_.b * step;
-    for (std::size_t k = 0; k < blocks.size(); ++k)
-      amount[k] += change[k] + moving.inverse[k] * (moving.test[k] * jump(blocks[k]));
-    exact_u += step.cast<long double>();
+    const auto step = factor->solve(missing, lacking);
+    for (std::size_t k = 0; k < blocks.size(); ++k) amount[k] += step.a[k];
+    exact_u += step.u.cast<long double>();
     if (repeat > 1 && std::sqrt(square) > nearer_repeat * before) break;
     before = std::sqrt(square);
   }
@@ -221,50 +214,37 @@ void SparseSystem::solve(const Guess& guess, const VectorXd& b, const VectorXd& 
   u = exact_u.cast<double>();
 }
 
-// Theta + S of the path, block by block, and what its rows give way besides.
+// Theta + S of the path, block by block.
 class SparseSystem::Step : public PathFactor {
  public:
-  // `inverse`: of theta and what gives way besides.
-  Step(const SparseSystem& system, JoinedStiffness::Factor factor, std::vector<MatrixXd> theta, std::vector<MatrixXd> inverse,
+  Step(const SparseSystem& system, std::unique_ptr<LinearFactor> factor, std::vector<MatrixXd> theta,
        std::span<const Local> pinned)
-      : system_(system),
-        factor_(std::move(factor)),
-        theta_(std::move(theta)),
-        inverse_(std::move(inverse)),
-        pinned_(pinned.begin(), pinned.end())
+      : system_(system), factor_(std::move(factor)), theta_(std::move(theta)), pinned_(pinned.begin(), pinned.end())
   {
   }
 
   PathFactor::Step solve(const VectorXd& forces, const VectorXd& lack, bool roughly) const override
   {
     const auto& blocks = system_.stiffness_.blocks();
-    const auto& b = system_.matrices_.b;
-    VectorXd right = forces;
-    for (const Local i : pinned_) right[i] = 0;
     PathFactor::Step step{VectorXd::Zero(forces.size()), VectorXd::Zero(lack.size())};
-    const VectorXd none = VectorXd::Zero(lack.size());
+    ExtendedVector exact_nu = step.nu.cast<long double>();
     for (int repeat = 0; repeat < (roughly ? 1 : repeats_of_path); ++repeat) {
-      VectorXd felt = right;
-      VectorXd missing = lack;
-      if (repeat > 0) {
-        felt += b * step.nu - times(blocks, theta_, step.x);
-        for (const Local i : pinned_) felt[i] = 0;
-        missing += system_.excess(step.x, step.nu, none);
-      }
-      VectorXd load = missing;
-      load -= b.transpose() * times(blocks, inverse_, felt);
-      const VectorXd moved = factor_.solve(load);
-      felt += b * moved;
-      step.x += times(blocks, inverse_, felt);
-      step.nu += moved;
+      VectorXd felt = forces - system_.push(step.nu) - times(blocks, theta_, step.x);
+      for (const Local i : pinned_) felt[i] = 0;
+      std::vector<VectorXd> lacking;
+      for (const auto& block : blocks) lacking.emplace_back(felt(block));
+      const auto more = factor_->solve(lacking_forces(system_.matrices_, step.x, exact_nu, -lack), lacking);
+      for (std::size_t k = 0; k < blocks.size(); ++k) step.x(blocks[k]) += more.a[k];
+      exact_nu += more.u.cast<long double>();
+      step.nu = exact_nu.cast<double>();
     }
     return step;
   }
 
  private:
   const SparseSystem& system_;
-  JoinedStiffness::Factor factor_;
-  std::vector<MatrixXd> theta_, inverse_;
+  std::unique_ptr<LinearFactor> factor_;
+  std::vector<MatrixXd> theta_;
   std::vector<Local> pinned_;
 };
 
@@ -276,27 +256,66 @@ std::unique_ptr<PathFactor> SparseSystem::factor(std::span<const Stiffening> ent
     const auto row = stiffness_.in_block(entry.row), column = stiffness_.in_block(entry.column);
     theta[static_cast<std::size_t>(row.block)](row.within, column.within) += entry.value;
   }
-  std::vector<MatrixXd> inverse = theta, near = theta;
+  BlockEquations equations{{}, {}, theta};
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     theta[k].diagonal() += matrices_.s(blocks[k]);
-    MatrixXd softer = theta[k];
-    softer.diagonal() += way_of_path * own_(blocks[k]);
-    inverse[k] = softer.inverse();
-    const MatrixXd even = answered(softer);
-    near[k] = even == softer ? inverse[k] : MatrixXd(even.inverse());
-    near[k] = 0.5 * (near[k] + near[k].transpose()).eval();
-    if (even == softer) inverse[k] = near[k];
+    equations.compliance[k] = theta[k];
+    equations.compliance[k].diagonal() += way_of_path * own_(blocks[k]);
+    equations.trial.emplace_back(MatrixXd::Identity(theta[k].rows(), theta[k].cols()));
   }
-  for (const Local i : pinned) {
-    const auto [block, within] = stiffness_.in_block(i);
-    for (auto* matrix : {&inverse[static_cast<std::size_t>(block)], &near[static_cast<std::size_t>(block)]}) {
-      matrix->row(within).setZero();
-      matrix->col(within).setZero();
-    }
-  }
-  auto factor = stiffness_.factorize(inverse, near);
+  auto factor = factor_of_path(std::move(equations), pinned);
   if (!factor) fail();
-  return std::make_unique<Step>(*this, std::move(*factor), std::move(theta), std::move(inverse), pinned);
+  return std::make_unique<Step>(*this, std::move(factor), std::move(theta), pinned);
+}
+
+// `equations` without what is pinned.
+std::unique_ptr<LinearFactor> SparseSystem::factor_of_path(BlockEquations equations, std::span<const Local> pinned) const
+{
+  std::vector<MatrixXd> inverse, near;
+  for (const auto& compliance : equations.compliance) {
+    const MatrixXd even = answered(compliance);
+    const bool symmetric = even == compliance;
+    MatrixXd of_even = even.inverse();
+    of_even = 0.5 * (of_even + of_even.transpose()).eval();
+    inverse.push_back(symmetric ? of_even : MatrixXd(compliance.inverse()));
+    near.push_back(std::move(of_even));
+  }
+  const auto leave_out = [](MatrixXd& matrix, Index i) {
+    matrix.row(i).setZero();
+    matrix.col(i).setZero();
+  };
+  for (const Local i : pinned) {
+    const auto [in, within] = stiffness_.in_block(i);
+    const auto block = static_cast<std::size_t>(in);
+    for (auto* matrix : {&inverse[block], &near[block], &equations.trial[block], &equations.compliance[block]})
+      leave_out(*matrix, within);
+    equations.compliance[block](within, within) = 1;
+  }
+  equations.test = equations.trial;
+  if (factors_ == Factors::whole) return saddle_factor(matrices_, stiffness_.blocks(), equations);
+  return eliminated_factor(stiffness_, std::move(equations), std::move(inverse), near);
+}
+
+VectorXd SparseSystem::balance(std::span<const Local> rows, const VectorXd& f, VectorXd& x, VectorXd& u) const
+{
+  auto z = zeros(stiffness_.blocks());
+  for (const Local i : rows) {
+    const auto [block, within] = stiffness_.in_block(i);
+    if (own_[i] > 0) z[static_cast<std::size_t>(block)](within, within) = 1 / own_[i];
+  }
+  const auto factor = stiffness_.factorize(z, z);
+  ExtendedVector exact_u = u.cast<long double>();
+  double before = std::numeric_limits<double>::infinity();
+  for (int repeat = 0; factor && repeat < repeats_of_balance; ++repeat) {
+    const VectorXd missing = lacking_forces(matrices_, x, exact_u, -f);
+    if (!(missing.norm() < nearer_repeat * before)) break;
+    before = missing.norm();
+    const VectorXd step = factor->solve(missing);
+    x += times(stiffness_.blocks(), z, matrices_.b * step);
+    exact_u += step.cast<long double>();
+  }
+  u = exact_u.cast<double>();
+  return (exact_u - u.cast<long double>()).cast<double>();
 }
 
 }  // namespace mortise::qp

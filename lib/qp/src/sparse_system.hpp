@@ -8,80 +8,21 @@
 // that and a few steps of GMRES solve it [Saad and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986)].
 //
 // Constraints that do not give way at all would be infinitely stiff. They give way by a tiny part of what their nodes do, and
-// solutions are repeated with what is left.
+// solutions are repeated with what is left. Where even that is too stiff beside the softest motions of thin bodies, factors are
+// those of the whole system, by pivots.
 #pragma once
 
-#include <optional>
-
-#include "base/cholesky.hpp"
 #include "contact_system.hpp"
+#include "linear_factor.hpp"
 #include "qp/feasible_set.hpp"
-#include "qp/sparse_newton.hpp"
 
 namespace mortise::qp {
 
-/// K + B'Z B for one Z after another, Z in blocks of unknowns that belong together. Their factors share one analysis of the
-/// pattern and its memory, the largest of a direct solution. Heavy: moves, does not copy.
-class JoinedStiffness {
- public:
-  /// One block: its unknowns.
-  using Block = std::vector<Local>;
-  /// (K + B'Z B)^-1 for one Z. Uses memory of the stiffness, which stays where it is: valid until the next factorization there.
-  class Factor {
-   public:
-    /// (K + B'Z B)^-1 r, to some figures. Throws std::logic_error if it is not valid any more.
-    Eigen::VectorXd solve(const Eigen::VectorXd& r) const;
-
-   private:
-    friend class JoinedStiffness;
-    Factor(const JoinedStiffness& stiffness, std::vector<Eigen::MatrixXd> z, bool symmetric)
-        : stiffness_(&stiffness), z_(std::move(z)), symmetric_(symmetric), number_(stiffness.factorizations_)
-    {
-    }
-    Eigen::VectorXd apply(const Eigen::VectorXd& u) const;
-
-    const JoinedStiffness* stiffness_;
-    std::vector<Eigen::MatrixXd> z_;
-    bool symmetric_;    // what is factorized is K + B'Z B itself
-    long long number_;  // of the factorization
-  };
-  /// `matrices` outlives it. `blocks`: every row of B once.
-  JoinedStiffness(const SparseMatrices& matrices, std::vector<Block> blocks);
-
-  const std::vector<Block>& blocks() const { return blocks_; }
-  /// Of each unknown of x: its block, and which one it is there.
-  struct InBlock {
-    int block;
-    int within;
-  };
-  InBlock in_block(Local unknown) const { return in_block_[static_cast<std::size_t>(unknown)]; }
-
-  /// Takes Z and a symmetric positive semidefinite matrix that is near it for the factor, one matrix for each block. None if
-  /// K + B'Z B is singular.
-  [[nodiscard]] std::optional<Factor> factorize(std::vector<Eigen::MatrixXd> z, const std::vector<Eigen::MatrixXd>& near);
-
- private:
-  // The columns of a block's rows of B, these rows, and where the entries of their products stand in lower_, lower triangle by
-  // columns.
-  struct Part {
-    std::vector<int> column;
-    Eigen::MatrixXd b;
-    std::vector<int> position;
-  };
-
-  const SparseMatrices& matrices_;
-  std::vector<Block> blocks_;
-  std::vector<InBlock> in_block_;
-  std::vector<Part> parts_;
-  SparseMatrix stiffness_, lower_;  // K with room for B'Z B, and the sum of both
-  std::unique_ptr<Cholesky> factor_;
-  long long factorizations_ = 0;
-};
-
 class SparseSystem : public ContactSystem {
  public:
+  enum class Factors { eliminated, whole };  ///< eliminated_factor() or saddle_factor()
   /// `matrices` outlives it. `set`: over all rows of B; which of them belong together.
-  SparseSystem(const SparseMatrices& matrices, const FeasibleSet& set);
+  SparseSystem(const SparseMatrices& matrices, const FeasibleSet& set, Factors factors = Factors::eliminated);
 
   Eigen::Index unknowns() const override { return matrices_.b.rows(); }
   Eigen::Index motions() const override { return matrices_.b.cols(); }
@@ -106,13 +47,20 @@ class SparseSystem : public ContactSystem {
   std::unique_ptr<PathFactor> factor(std::span<const Stiffening> entries, std::span<const Local> pinned,
                                      bool symmetric) const override;
 
+  /// Makes K u + B'x = f of a solution (x, u) hold to the figures of x, where nodes feel less than the last figure of u: by `u`
+  /// and by the forces of `rows`, which share what is missing with the bodies. Returns what u lacks after its last figure.
+  Eigen::VectorXd balance(std::span<const Local> rows, const Eigen::VectorXd& f, Eigen::VectorXd& x, Eigen::VectorXd& u) const;
+
  private:
   class Step;
   struct Moving;
 
   Moving moving(const Guess& guess) const;
+  std::unique_ptr<LinearFactor> factor_of(const Moving& moving, bool symmetric);
+  std::unique_ptr<LinearFactor> factor_of_path(BlockEquations equations, std::span<const Local> pinned) const;
 
   const SparseMatrices& matrices_;
+  Factors factors_;
   Eigen::VectorXd diagonal_, own_;
   mutable JoinedStiffness stiffness_;  // its factors take its memory
 };

@@ -36,6 +36,19 @@ StateSearch::StateSearch(CondensedProgramme programme, bool patient)
   if (programme_.unknowns() > 0) softest_ = softest * programme_.system().largest_ratio();
 }
 
+std::vector<Local> StateSearch::free_forces() const
+{
+  std::vector<Local> unknowns;
+  const auto bounds = programme_.set().bounds();
+  const auto discs = programme_.set().discs();
+  for (std::size_t i = 0; i < bounds.size(); ++i)
+    if (states_.closed[i]) unknowns.push_back(bounds[i].index);
+  for (std::size_t d = 0; d < discs.size(); ++d)
+    for (int k = 0; k < discs[d].size() && states_.kind[d] == ConstraintStates::Kind::sticks; ++k)
+      unknowns.push_back(discs[d].index[static_cast<std::size_t>(k)]);
+  return unknowns;
+}
+
 bool StateSearch::from_anywhere()
 {
   if (!sparing_) return find_patiently();

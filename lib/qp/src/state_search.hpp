@@ -24,6 +24,9 @@ class StateSearch {
   /// Steps of GMRES leave what settles states, but not all figures: thin plates bend by 1e8 times what decides about contact.
   void polish();
 
+  /// The unknowns that the point's states leave free: those of closed bounds and of discs that stick.
+  std::vector<Local> free_forces() const;
+
   const CondensedNewton::Result& point() const { return point_; }
   Eigen::VectorXd reaction() const { return programme_.gradient(point_.x, point_.nu); }
 

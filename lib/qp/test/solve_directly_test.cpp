@@ -1,4 +1,6 @@
 // A direct solution as a start: what shows that it is one, what corrects it, and what takes its place where it is none.
+#include <cmath>
+
 #include "solver_setting.hpp"
 #include "testing/rough_operator.hpp"
 
@@ -278,6 +280,88 @@ TEST(DirectSolver, KnowsItsDefectFromWhoMakesItAtOnce)
     EXPECT_EQ(hessian.count(), 1);
     EXPECT_LT(programme.distance(known.answer->x, programme.reference()), 1e-6);
   }
+}
+
+// A^-1 that feels hardly anything.
+class NumbInverse : public DenseProgramme {
+ public:
+  using DenseProgramme::DenseProgramme;
+  void apply(const MultiVector& x, MultiVector& y, Teuchos::ETransp mode, Scalar alpha, Scalar beta) const override
+  {
+    DenseProgramme::apply(x, y, mode, 1e-20 * alpha, beta);
+  }
+};
+
+// Adds to the reaction what no state of a constraint has: a defect.
+void spoil(ExplicitProgramme::Result& found, double size)
+{
+  Vector more(found.x.getMap());
+  for (std::size_t i = 0; i < more.getLocalLength(); ++i)
+    view(more)[static_cast<Eigen::Index>(i)] = size * std::cos(3.0 * static_cast<double>(i));
+  found.reaction->update(1, more, 1);
+}
+
+// Where the first matrices are the better ones, they judge what others found in their place.
+TEST(DirectSolver, LetsTheBetterMatricesJudge)
+{
+  for (const bool better : {false, true}) {
+    Setting setting;
+    auto& programme = setting.programme;
+    const RoughOperator rough(programme.a, 1e-5);
+    Hessian hessian(rough, 4000);
+    Budget budget(hessian, {}, false);
+    budget.start(Patience(390));  // SMALSE-M is not to go on
+    const auto make_explicit = [&] {
+      auto first = setting.explicit_programme([](ExplicitProgramme::Result& found) { found.converged = false; });
+      first.rough_products = better;
+      first.instead = [&] {
+        auto others = setting.explicit_programme([](ExplicitProgramme::Result& found) { spoil(found, 3e-3); });
+        others.inverse = std::make_shared<NumbInverse>(programme);
+        return others;
+      };
+      return first;
+    };
+    const auto solver =
+        solver_kind("direct").make({hessian, programme.equality, programme.set}, {budget, nullptr, make_explicit});
+    Goal goal{1e-8};
+    goal.allowed_error = [](const Vector&, const Eigen::VectorXd&) { return 1e-3; };
+    goal.energy_norm = [&](const Vector& x, const Eigen::VectorXd&) { return programme.distance(x, 0 * gathered(x, world())); };
+    goal.contact_converged = [](const Vector&, const Vector&, const Vector&) { return false; };
+    const auto radii = programme.set.radii();
+    std::optional<Solution> start;
+    Foreknown known = solver->begin(programme.right, radii, start, goal, {});
+    ASSERT_TRUE(known.by_matrices);
+    EXPECT_EQ(solver->solve(programme.right, radii, start, goal, {}, &known).converged, !better);
+  }
+}
+
+// A defect d counts by the least energy of d + G'nu.
+TEST(DirectSolver, LeavesMotionsOutOfTheErrorOfSlenderBodies)
+{
+  Setting setting;
+  auto& programme = setting.programme;
+  setting.means.make_explicit = [&] {
+    auto result = setting.explicit_programme([](ExplicitProgramme::Result& found) { spoil(found, 1e-3); });
+    result.rough_products = true;
+    return result;
+  };
+  const auto solver = setting.make(solver_kind("direct"));
+  Goal goal{1e-8};
+  goal.allowed_error = [](const Vector&, const Eigen::VectorXd&) { return 1.0; };
+  goal.energy_norm = [&](const Vector& x, const Eigen::VectorXd&) { return programme.distance(x, 0 * gathered(x, world())); };
+  std::optional<Solution> start;
+  const auto known = solver->begin(programme.right, programme.set.radii(), start, goal, {});
+  ASSERT_TRUE(known.answer);
+  ExplicitProgramme::Result spoilt{Vector(programme.map), {}, true, Vector(programme.map)};
+  spoil(spoilt, 1e-3);
+  programme.equality.project(*spoilt.reaction);
+  const Eigen::VectorXd d = gathered(*spoilt.reaction, world()), error = programme.dense.llt().solve(d);
+  const Eigen::MatrixXd& g = programme.g;
+  const Eigen::MatrixXd work = g * programme.dense.llt().solve(g.transpose());
+  const Eigen::VectorXd felt = g * error;
+  const double whole = d.dot(error), least = whole - felt.dot(work.llt().solve(felt));
+  EXPECT_LT(least, 0.99 * whole);
+  EXPECT_NEAR(known.answer->error, std::sqrt(least), 1e-4 * std::sqrt(least));
 }
 
 // That bodies slide on for ever is told to who follows a law, and once; with radii that are given there is a solution.

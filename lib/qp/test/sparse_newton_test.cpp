@@ -5,6 +5,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "../src/linear_factor.hpp"
+#include "base/error.hpp"
 #include "dense_programme.hpp"
 
 namespace mortise::qp {
@@ -178,8 +180,92 @@ TEST(SparseInverse, IsTheInverseOfTheCompliance)
   EXPECT_LT((found.x - x).norm(), 1e-9 * x.norm());
   const VectorXd f = VectorXd::LinSpaced(Chain::n, 1, 3);
   const auto loaded = inverse.solve(p.a * x, f);
-  EXPECT_LT((chain.forces(loaded.u) - f - chain.matrices.b.transpose() * loaded.x).norm(), 1e-9 * f.norm());
-  EXPECT_LT((chain.matrices.b * loaded.u - p.a * x).norm(), 1e-9 * (p.a * x).norm());
+  EXPECT_LT((chain.forces(loaded.u.cast<double>()) - f - chain.matrices.b.transpose() * loaded.x).norm(), 1e-9 * f.norm());
+  EXPECT_LT((chain.matrices.b * loaded.u.cast<double>() - p.a * x).norm(), 1e-9 * (p.a * x).norm());
+}
+
+// Two bodies, each of points with two faces that a stiffness of `across` joins; the means of these are a chain with springs of 1
+// whose ends are held. They press against each other with a face each: A = 2 L^-1 + 1 / (2 across), L of a chain.
+struct ThinPair {
+  static constexpr int points = 20, unknowns = 4 * points;
+  SparseMatrices matrices;
+  MatrixXd chain = 2 * MatrixXd::Identity(points, points);  // L
+
+  explicit ThinPair(double across)
+  {
+    for (int i = 0; i + 1 < points; ++i) chain(i, i + 1) = chain(i + 1, i) = -1;
+    const MatrixXd stiff = across * MatrixXd::Identity(points, points);
+    MatrixXd k = MatrixXd::Zero(unknowns, unknowns);
+    for (const int body : {0, 2}) {
+      auto own = k.block(body * points, body * points, 2 * points, 2 * points);
+      own << chain / 4 + stiff, chain / 4 - stiff, chain / 4 - stiff, chain / 4 + stiff;
+    }
+    matrices.k = MatrixXd(k.triangularView<Eigen::Lower>()).sparseView();
+    matrices.b.resize(points, unknowns);
+    for (int i = 0; i < points; ++i) {
+      matrices.b.insert(i, i) = 1;
+      matrices.b.insert(i, 2 * points + i) = -1;
+    }
+    matrices.s = VectorXd::Zero(points);
+  }
+  MatrixXd compliance() const { return 2 * chain.llt().solve(MatrixXd::Identity(points, points)); }
+  double missing(const VectorXd& x, const ExtendedVector& u, const VectorXd& f) const
+  {
+    return lacking_forces(matrices, x, u, -f).norm();
+  }
+};
+
+// What is soft is 1e10 times as soft as what is stiff: a sum with constraints that are stiffer still has lost it.
+TEST(SparseInverse, KeepsWhatIsSoftWithNothingEliminated)
+{
+  const ThinPair thin(1e10);
+  const VectorXd r = VectorXd::LinSpaced(ThinPair::points, 1, 3), expected = thin.chain * r / 2;
+  const VectorXd nothing = VectorXd::Zero(ThinPair::unknowns);
+  const auto found = SparseInverse(thin.matrices, true).solve(r, nothing);
+  const double error = (found.x - expected).norm();
+  EXPECT_LT(error, 1e-6 * expected.norm());
+  EXPECT_LT(thin.missing(-found.x, found.u, nothing), 1e-7 * expected.norm());
+  double other = std::numeric_limits<double>::infinity();
+  try {
+    other = (SparseInverse(thin.matrices).solve(r, nothing).x - expected).norm();
+  } catch (const Error& lost) {
+    EXPECT_EQ(lost.status(), ExitStatus::not_converged);
+  }
+  EXPECT_GT(other, 100 * error);
+}
+
+// Where thin bodies touch is told by what is soft in them. Forces balance to figures of their own, though the last one of u makes
+// more of the stiffness.
+TEST(SparseNewton, FindsContactOfThinBodies)
+{
+  const ThinPair thin(1e10);
+  constexpr int n = ThinPair::points;
+  VectorXd f = VectorXd::Zero(ThinPair::unknowns), c(n);
+  for (int i = 0; i < n; ++i) f[n + i] = 0.2 + 0.02 * i;
+  for (int i = 0; i < n; ++i) c[i] = 3 + (i % 3);
+  std::vector<Bound> bounds;
+  for (int i = 0; i < n; ++i) bounds.push_back({i});
+  const FeasibleSet set(bounds, {});
+  const auto found = SparseNewton(thin.matrices, true).solve(f, c, set);
+  ASSERT_TRUE(found.converged);
+  MatrixProgramme p;
+  p.a = thin.compliance();
+  p.b = thin.chain.llt().solve(f.segment(n, n)) - c;
+  p.g = MatrixXd(0, n);
+  p.e = VectorXd(0);
+  p.set = set;
+  const auto expected = p.solve();
+  ASSERT_TRUE(expected.converged);
+  Census census;
+  census.add(p, expected.x);
+  EXPECT_GT(census.open, 3);
+  EXPECT_GT(census.closed, 3);
+  EXPECT_LT((found.x - expected.x).norm(), 1e-6 * expected.x.norm());
+  ASSERT_EQ(found.nu_rest.size(), ThinPair::unknowns);
+  const ExtendedVector u = found.nu.cast<long double>();
+  const double missing = thin.missing(found.x, u + found.nu_rest.cast<long double>(), f);
+  EXPECT_LT(missing, 1e-6);
+  EXPECT_GT(thin.missing(found.x, u, f), 30 * missing);
 }
 
 }  // namespace

@@ -40,8 +40,9 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
   /// are slender and solutions refined, of which dense matrices take one for each row. The same on every rank. Collective.
   static Turn turn(const DualSystem& system, bool slender);
 
-  /// The system outlives it. `patient`: as of qp::SparseNewton. Throws Error(machine) if memory runs out. Collective.
-  explicit SparseProblem(const DualSystem& system, bool patient = false);
+  /// The system outlives it. `slender`: patient as of qp::SparseNewton, and exact as of qp::SparseInverse. Throws Error(machine)
+  /// if memory runs out. Collective.
+  explicit SparseProblem(const DualSystem& system, bool slender = false);
   ~SparseProblem() override;
 
   using Result = qp::ExplicitProgramme::Result;
@@ -68,6 +69,7 @@ class SparseProblem : public qp::ActiveSetPreconditioner {
                const qp::FeasibleSet& set, const Result* near) const;
 
   const DualSystem& system_;
+  bool slender_;
   std::unique_ptr<const RowsOnRoot> rows_;
   std::vector<int> offset_;  // of the unknowns of this rank's subdomains among all; one past the last
   int unknowns_ = 0;         // of all subdomains of all ranks

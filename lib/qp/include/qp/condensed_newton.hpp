@@ -41,7 +41,8 @@ class CondensedNewton {
     Eigen::VectorXd reaction = {};  ///< A x - b + G'nu, zero at unknowns without a constraint
     /// If it did not converge: x are forces under which bodies slide along each other for ever, nu is somewhere on their way.
     bool slides = false;
-    bool settled = true;  ///< if it converged: with states that the next guess left as they are, not by rounding alone
+    bool settled = true;           ///< if it converged: with states that the next guess left as they are, not by rounding alone
+    Eigen::VectorXd nu_rest = {};  ///< what nu lacks after its last figure, where that is known: forces may feel it
   };
   /// For the linear term b and the right-hand side e. `near`: the solution of a problem before, if it converged, or a guess at
   /// this one's, with its reaction, from whose states guesses go on; nothing else is tried then.

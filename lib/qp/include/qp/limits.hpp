@@ -92,8 +92,10 @@ struct Direct {
   /// And of what matrices found where products do not end at all, as for soft films between stiff bodies: multipliers have no
   /// more figures. post::unreached_tolerance() tells it.
   static constexpr double makes_up_for_any_residual = 1e-3;
-  static constexpr double much = 1e-3;     ///< of the energy norm: an error beyond which other matrices are tried
-  static constexpr double outside = 1e-6;  ///< of x: part of it that may lie outside of Omega, or not balance the loads
+  static constexpr double much = 1e-3;             ///< of the energy norm: an error beyond which other matrices are tried
+  static constexpr int most_motions = 100;         ///< of G, of which a sharper error is worth a solution each
+  static constexpr int steps_to_least_energy = 2;  ///< the second for what rounding leaves of the first
+  static constexpr double outside = 1e-6;          ///< of x: part of it that may lie outside of Omega, or not balance the loads
 
   // Corrections of what the matrices differ from A by, as rows that depend on each other are given a compliance.
   static constexpr int most_corrections = 4;      ///< as long as each leaves
@@ -139,9 +141,11 @@ struct States {
   static constexpr std::int64_t few_unknowns = 2000;  ///< up to which a factor of W takes a moment; beyond, as long as guesses
   static constexpr std::int64_t very_few_unknowns = 800;  ///< up to which steps of other lengths are tried: hundreds of guesses
   static constexpr std::int64_t few_motions = 5000;       ///< up to which a sparse factor takes a moment
-  static constexpr int guesses_of_path = 60;              ///< that a path takes as long as
-  static constexpr double soft_for_large_ones = 1e5;      ///< softness beyond which a path takes fewer steps than hardening
-  static constexpr double most_operations = 3e12;         ///< of factors that a last search may take: 100 s
+  static constexpr std::int64_t few_motions_of_whole = 20000;   ///< the same of one with nothing eliminated,
+  static constexpr std::int64_t motions_of_one_whole = 100000;  ///< and where there is one alone
+  static constexpr int guesses_of_path = 60;                    ///< that a path takes as long as
+  static constexpr double soft_for_large_ones = 1e5;            ///< softness beyond which a path takes fewer steps than hardening
+  static constexpr double most_operations = 3e12;               ///< of factors that a last search may take: 100 s
 
   // Central paths.
   static constexpr int most_on_path = 100;              ///< linear problems

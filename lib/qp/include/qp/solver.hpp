@@ -42,7 +42,8 @@ struct ExplicitProgramme {
   bool differs = false;  ///< whether the matrix differs from A by a little, so that go_on() has to correct solutions
   /// Other matrices, for where a solution with these does not converge or settle. Else empty. Collective.
   std::function<ExplicitProgramme()> instead = {};
-  /// Whether products with A are rougher than these matrices, so that a solution is judged by its defect alone.
+  /// Whether products with A are rougher than these matrices, so that a solution is judged by its defect alone; and `inverse` is
+  /// nearer to A^-1 than that of other matrices, so that it judges their solutions as well.
   bool rough_products = false;
   bool instead_of_none = false;  ///< `instead` is for where these find no solution: one that does not settle will do
 };

@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "base/cholesky.hpp"
+#include "base/extended.hpp"
 #include "qp/condensed_newton.hpp"
 #include "qp/feasible_set.hpp"
 
@@ -44,15 +45,17 @@ class SparseNewton {
 /// (B K^-1 B' + S)^-1 for a positive definite K. Heavy: moves, does not copy.
 class SparseInverse {
  public:
-  /// Throws Error(not_converged) if K is not positive definite to rounding.
-  explicit SparseInverse(SparseMatrices matrices);
+  /// `whole`: with nothing eliminated, unless bodies are large; what bends softly is lost otherwise. Throws Error(not_converged)
+  /// if K is not positive definite to rounding, and Error(machine) if memory runs out.
+  explicit SparseInverse(SparseMatrices matrices, bool whole = false);
   ~SparseInverse();
   SparseInverse(SparseInverse&&) noexcept;
   SparseInverse& operator=(SparseInverse&&) noexcept;
 
   /// x with B u + S x = r, K u = f + B'x; returns u, too.
   struct Result {
-    Eigen::VectorXd x, u;
+    Eigen::VectorXd x;
+    ExtendedVector u;
   };
   Result solve(const Eigen::VectorXd& r, const Eigen::VectorXd& f) const;
 
