@@ -9,8 +9,8 @@ A model may be a pattern. --quick solves a selection on the first meshes; --suit
 disc, and without `auto` for tipping blocks in space, and a cheap cell of the last mesh for what is held against a reference. Figures: the
 largest recovered pressure and the largest von Mises stress, both farther than `away` from the lines where the exact ones are infinite
 (edges pressed into a surface, clamped borders); the strain energy; forces. Required: the three solutions within 10 % of each other in
-stress and 2 % in energy on every mesh, forces to 1e-6; the last mesh near the reference, which is a much finer mesh's. Blocks loaded a
-fiftieth of a cell inside or beyond the edge they would tip about must stand or end with exit 3. Exit status 1 if a case fails. --commands
+stress (20 % on meshes between the first and the last) and 2 % in energy, forces to 1e-6; the last mesh near the reference, which is a
+much finer mesh's. Blocks loaded a fiftieth of a cell inside or beyond the edge they would tip about must stand or end with exit 3. Exit status 1 if a case fails. --commands
 prints how to run what failed; --quick --write puts the selection into results.md, --sizes 0 --write and --sizes 2 --write a line for each
 model into sides.md: how far its solutions are apart, and from the reference. Needs numpy.
 """
@@ -115,8 +115,10 @@ def solve(program, model, cell, size, law, side):
     return run
 
 
-# How far the solutions may be apart, and how far from the reference on the last mesh (cells of constant strain, first order, second order).
+# How far the solutions may be apart on the first and the last meshes; on those between, the first points beside lines where stresses are
+# infinite are where they may be. And how far from the reference on the last mesh (cells of triangles of first order, others of first order, second order).
 LIMITS = {"pressure": 0.1, "von Mises": 0.1, "energy": 0.02, "shear share": 0.1, "stick width": 0.1}
+STRESSES_BETWEEN = 0.2
 FROM_REFERENCE = {"pressure": (0.25, 0.25, 0.15), "von Mises": (0.3, 0.25, 0.15), "energy": (0.1, 0.1, 0.03)}
 
 
@@ -132,6 +134,8 @@ def judge(runs):
         return complaints + [f"{run.side}: no warning of the mesh" for run in solved if not warned(run)]
     for name, limit in LIMITS.items():
         values = [run.figures[name] for run in solved if name in run.figures]
+        if name in ("pressure", "von Mises") and 0 < runs[0].size < len(runs[0].model.sizes) - 1:
+            limit = STRESSES_BETWEEN
         if values and not max(values) <= (1 + limit) * min(values):
             shown = ", ".join(f"{run.side} {run.figures[name]:.4g}" for run in solved)
             complaints.append(f"{name}: {shown}")
@@ -158,7 +162,7 @@ def far_from_reference(run):
         return []
     complaints = []
     for name, expected in run.model.reference.get(run.law, {}).items():
-        limit = FROM_REFERENCE[name][0 if run.cell in ("tri3", "tet4") else 1 + (run.cell in SECOND)]
+        limit = FROM_REFERENCE[name][0 if run.cell in ("tri3", "tet4", "prism6") else 1 + (run.cell in SECOND)]
         if not abs(run.figures[name] - expected) <= limit * expected:
             complaints.append(f"{name} of {run.side}: {run.figures[name]:.4g}, reference {expected:.4g} to {limit:g}")
     return complaints
