@@ -53,6 +53,9 @@ mortise_regression(bent_ring RANKS 1)
 mortise_regression(tube_of_one_layer RANKS 1 STUDY_RANKS 2)
 mortise_regression(rubber_pad RANKS 1 STUDY_RANKS 2)
 mortise_regression(rubber_pad VARIANT .quad8 RANKS 1 SET mesh.blocks.pad.element=quad8 EXPECTED cases/rubber_pad.quad8.expected.json)
+mortise_regression(pad_layer RANKS 1 3 STUDY_RANKS 2)
+mortise_regression(pad_layer VARIANT .smooth RANKS 1 STUDY_RANKS 2 3 SET "contacts.0.friction={coulomb: 0}"
+                   EXPECTED cases/pad_layer.smooth.expected.json)
 mortise_regression(tube_of_one_layer VARIANT .triangles RANKS 1 EXPECTED cases/tube_of_one_layer.triangles.expected.json
                    SET mesh.blocks.tube.element=tri3)
 mortise_regression(twisted_bar RANKS 1 STUDY_RANKS 2 3)

@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "held_faces.hpp"
 #include "nodes_in_rows.hpp"
 #include "planes_at_copies.hpp"
 #include "rotated_nodes.hpp"
@@ -92,7 +93,7 @@ void drop_curved(std::vector<model::FaceAction>& actions, const partition::NodeH
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   const auto prescribed = prescribed_normals(nodes, sent_home(actions, homes, comm), homes, comm);
-  std::set<std::size_t> curved;
+  std::set<Global> curved;
   for (const auto& action : actions) {
     if (action.kind != Kind::prescribed) continue;
     const Point normal = point(action.normal);
@@ -295,9 +296,13 @@ std::vector<std::vector<post::SymmetricNode>> find_mirrored_nodes(const model::M
 post::SymmetricNodes find_symmetric_nodes(const model::Model& model, const Rows& rows, const partition::NodeDirectory& directory,
                                           const partition::Interface& interface, const Communicator& comm)
 {
-  const partition::NodeHomes homes(model.decomposition(), interface, directory, nodes_in_rows(rows.constraints.contacts), comm);
+  auto others = nodes_in_rows(rows.constraints.contacts);
+  const auto without_rows = nodes_without_rows(rows.constraints.contacts);
+  others.insert(others.end(), without_rows.begin(), without_rows.end());
+  const partition::NodeHomes homes(model.decomposition(), interface, directory, others, comm);
   return {find_mirrored_nodes(model, rows, homes, interface, comm),
-          find_rotated_nodes(rows, model.decomposition(), directory, comm), find_shear_free_nodes(model, rows, homes, comm)};
+          find_rotated_nodes(rows, model.decomposition(), directory, comm), find_shear_free_nodes(model, rows, homes, comm),
+          find_held_faces(model, rows, homes, comm)};
 }
 
 }  // namespace mortise::analysis

@@ -97,7 +97,7 @@ class FaceActions {
     mesh_ = &mesh;
     facet_ = facet;
     plane_ = plane_of(mesh, facet);
-    ++faces_;
+    face_ = partition::face_number(mesh, facet);
   }
   void add(const constraint::SupportOptions& options, const constraint::Support& support);
   void add(const fem::LoadOptions& load, const std::optional<deck::LocalAxes>& axes);
@@ -107,7 +107,7 @@ class FaceActions {
   {
     for (std::size_t n = 0; n < mesh.node_count(); ++n)
       if (const Point& x = mesh.points[n]; std::abs(x[0]) <= near)
-        found.push_back({mesh.node_id[n], array_of(x), {-1, 0, 0}, {-1, 0, 0}, near, faces_, Kind::prescribed});
+        found.push_back({mesh.node_id[n], array_of(x), {-1, 0, 0}, {-1, 0, 0}, near, -1, Kind::prescribed});
   }
 
   std::vector<FaceAction> found;
@@ -117,8 +117,8 @@ class FaceActions {
   void note(Local n, Kind kind, const Point& normal, const Point& direction)
   {
     const auto node = static_cast<std::size_t>(n);
-    found.push_back({mesh_->node_id[node], array_of(mesh_->points[node]), array_of(normal), array_of(direction), plane_.size,
-                     faces_ - 1, kind});
+    found.push_back(
+        {mesh_->node_id[node], array_of(mesh_->points[node]), array_of(normal), array_of(direction), plane_.size, face_, kind});
   }
   void note_all(Kind kind, const Point& normal, const Point& direction)
   {
@@ -126,7 +126,8 @@ class FaceActions {
   }
 
   const mesh::Mesh* mesh_ = nullptr;
-  std::size_t facet_ = 0, faces_ = 0;  // the face in its mesh; how many there were, this one included
+  std::size_t facet_ = 0;  // the face in its mesh
+  Global face_ = -1;
   Plane plane_;
 };
 
@@ -220,7 +221,7 @@ std::vector<FacePressure> Model::face_pressures(const LoadState& state) const
         for (const std::size_t i : pressing)
           pressure += state.load[i] * (*deck_.loads[i].pressure)(mesh.points[node], state.time);
         if (!std::isfinite(pressure)) pressure = std::numeric_limits<double>::quiet_NaN();  // a formula may have no value there
-        result.push_back({mesh.node_id[node], normal, pressure});
+        result.push_back({mesh.node_id[node], normal, pressure, partition::face_number(mesh, f)});
       }
     }
   }

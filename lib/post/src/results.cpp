@@ -83,6 +83,20 @@ double estimate_errors(const feti::DualSolution& solved, const StressField& stre
   return norm;
 }
 
+// Of this rank's secondary sides: those of contacts with friction that do not stick, ascending.
+std::vector<Global> loose_nodes(std::span<const contact::Pair> pairs, std::span<const contact::SurfaceState> surfaces)
+{
+  std::vector<Global> nodes;
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    if (pairs[c].options.law == contact::Law::bonded || pairs[c].options.law == contact::Law::frictionless) continue;
+    const auto& ids = pairs[c].secondary.node_id;
+    for (std::size_t n = 0; n < ids.size(); ++n)
+      if (surfaces[c].status[n] != static_cast<int>(contact::Status::stick)) nodes.push_back(ids[n]);
+  }
+  std::ranges::sort(nodes);
+  return nodes;
+}
+
 // What rounding leaves in this state and those before.
 Rounding rounding_of(const Equilibrium& e, double largest_body, double stored, const Communicator& comm)
 {
@@ -155,8 +169,8 @@ Results evaluate(const Equilibrium& e, const ElasticBodies& bodies, const Commun
   Results results;
   auto& [fields, contact, forces, accuracy, left_out, verdict] = results;
   fields.max_displacement = largest_displacement(e.displacement, e.problem.dimension(), comm);
-  fields.stress = recover_stress(bodies, e.displacement, comm);
   contact = contact_results(e.problem, solution.x, solution.nu, e.solved.slip_bounds, e.displacement, e.pairs, e.largest_force);
+  fields.stress = recover_stress(bodies, e.displacement, comm, loose_nodes(e.pairs, contact.surfaces));
   accuracy.contact_errors = contact_errors(bodies, e.displacement, fields.stress, e.pairs, contact.surfaces, comm);
   const double norm = estimate_errors(e.solved, fields.stress, rounding, stored, comm, accuracy);
   left_out = neglected(e, bodies, fields, contact, comm);

@@ -8,6 +8,7 @@
 #include "fem/patches.hpp"
 #include "fem/stress.hpp"
 #include "fem/symmetry.hpp"
+#include "layers.hpp"
 
 namespace mortise::post {
 
@@ -173,24 +174,6 @@ std::vector<Eigen::MatrixXd> patch_sums(const ElasticBodies& bodies, const std::
   return result;
 }
 
-// Whether a node that patches know lies inside the body (fem/patches.hpp) shares a cell with one of the nodes of this cell. If
-// none does, as in one layer of cells, recovered stresses are those of cells along the layer.
-bool near_inside(const Eigen::MatrixXd& patches, const mesh::Mesh& mesh, const fem::Materials& materials, std::size_t cell)
-{
-  constexpr double last_resort = 1e-3;  // patches at the border weigh much less
-  const auto weight = 7 * static_cast<Eigen::Index>(materials.index(cell)) + 6;
-  return std::ranges::any_of(mesh.cells[cell], [&](Local n) { return patches(n, weight) > last_resort; });
-}
-
-// Cells in one layer.
-std::vector<std::size_t> cells_in_a_layer(const mesh::Mesh& mesh, const fem::Materials& materials, const Eigen::MatrixXd& patches)
-{
-  std::vector<std::size_t> layer;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    if (!near_inside(patches, mesh, materials, c)) layer.push_back(c);
-  return layer;
-}
-
 // Adds to the squared errors of these cells of subdomain s, in one layer, what recovered stresses do not show of them.
 void add_unseen(const ElasticBodies& bodies, std::size_t s, const Eigen::VectorXd& displacement,
                 std::span<const std::size_t> layer, Eigen::VectorXd& squared)
@@ -244,7 +227,8 @@ Eigen::VectorXd squared_errors(const ElasticBodies& bodies, std::size_t s, const
       fem::squared_errors_of_temperature(mesh, own.materials, bodies.kinematics, own.formulation, own.temperature_change));
 }
 
-Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm)
+Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement, const Communicator& comm,
+                  std::span<const Global> loose)
 {
   const auto& subdomains = bodies.decomposition.subdomains;
   const auto blocks = bodies.blocks;
@@ -277,18 +261,21 @@ Recovered recover(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd
   add_rotated(bodies, result.nodal, comm);
   const auto patches = patch_sums(bodies, displacement, comm);
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
-    Eigen::MatrixXd stress = means(result.nodal[s]);
-    make_symmetric(stress, at_copies(bodies, s, &SymmetricNodes::mirrored));
+    result.nodal[s] = means(result.nodal[s]);
+    make_symmetric(result.nodal[s], at_copies(bodies, s, &SymmetricNodes::mirrored));
+  }
+  const auto of_held_sides = errors_between_held_sides(bodies, displacement, patches, result.nodal, loose, comm);
+  for (std::size_t s = 0; s < subdomains.size(); ++s) {
     const auto& mesh = subdomains[s].mesh;
     const auto body = static_cast<std::size_t>(subdomains[s].body);
-    const Eigen::VectorXd errors = subdomains[s].skin ? boundary_errors(bodies, s, boundary[s], stress)
-                                                      : squared_errors(bodies, s, displacement[s], patches[s], stress);
+    Eigen::VectorXd errors = subdomains[s].skin ? boundary_errors(bodies, s, boundary[s], result.nodal[s])
+                                                : squared_errors(bodies, s, displacement[s], patches[s], result.nodal[s]);
+    if (of_held_sides[s].size() > 0) errors = errors.cwiseMax(of_held_sides[s]);
     result.squared_error += errors.sum();
     result.body_error[body] += errors.sum();
     for (Eigen::Index c = 0; c < errors.size(); ++c)
       if (auto& worst = result.worst_cell[body]; errors[c] > worst.value)
         worst = {errors[c], centre(mesh, static_cast<std::size_t>(c))};
-    result.nodal[s] = std::move(stress);
   }
   for (auto& found : boundary) result.surface.push_back(std::move(found.surface));
   result.squared_error = comm.sum(result.squared_error);
@@ -310,9 +297,9 @@ Eigen::MatrixXd governing(const Eigen::MatrixXd& stress)
 }  // namespace
 
 StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
-                           const Communicator& comm)
+                           const Communicator& comm, std::span<const Global> loose)
 {
-  auto recovered = recover(bodies, displacement, comm);
+  auto recovered = recover(bodies, displacement, comm, loose);
   const auto& subdomains = bodies.decomposition.subdomains;
   StressField field;
   if (bodies.blocks == 1) {

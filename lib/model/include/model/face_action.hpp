@@ -18,7 +18,7 @@ struct FaceAction {
   Global node;
   std::array<double, 3> at, normal, direction;  ///< the node's place, and unit vectors; `normal` points out of the body
   double size;                                  ///< the longest distance of two corners of the face
-  std::size_t face;                             ///< a number of the face among those of its rank
+  Global face;                                  ///< partition::face_number(); -1 of the axis of revolution
   Kind kind;
 };
 
@@ -27,6 +27,7 @@ struct FacePressure {
   Global node;
   std::array<double, 3> normal;  ///< unit, out of the body
   double pressure;               ///< not a number where springs push along the normal, or a formula has no value
+  Global face;                   ///< partition::face_number()
 };
 
 }  // namespace mortise::model

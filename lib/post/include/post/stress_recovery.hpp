@@ -29,6 +29,7 @@
 #include "base/communicator.hpp"
 #include "bem/stress_recovery.hpp"
 #include "fem/constitution.hpp"
+#include "fem/held_faces.hpp"
 #include "feti/subdomain_operator.hpp"
 #include "partition/congruence.hpp"
 #include "partition/node_directory.hpp"
@@ -60,6 +61,7 @@ struct SymmetricNodes {
   /// Not symmetric, but faces there bear no traction along themselves: recovered stresses of the error estimate have none either,
   /// and across one layer of cells of first order the tractions that loads give.
   std::vector<std::vector<SymmetricNode>> shear_free = {};
+  std::vector<std::vector<fem::HeldFace>> held_faces = {};  ///< of each subdomain of this rank, by cells
 };
 
 /// What the recovery works on. Refers to its parts.
@@ -99,9 +101,10 @@ struct StressField {
   std::vector<double> body_energy;    ///< and of the strain energy
 };
 
-/// The stresses of displacements of each subdomain. Collective.
+/// The stresses of displacements of each subdomain. `loose`: nodes of contacts with friction that slip or are open, ascending; of
+/// each node some rank that has a copy knows it. Collective.
 StressField recover_stress(const ElasticBodies& bodies, const std::vector<Eigen::VectorXd>& displacement,
-                           const Communicator& comm);
+                           const Communicator& comm, std::span<const Global> loose = {});
 
 /// In the energy norm: an error of the mesh for the solver to stop by, and the size of the solution. It is || sigma_a - sigma_h
 /// ||, which costs least and is rather less than the error that is claimed. That of boundary elements is taken for a hundredth of
