@@ -75,7 +75,8 @@ feti::Subdomains factorize(const model::Model& model, const std::vector<partitio
       own.swap(stiffness[s]);
       subdomains.push_back(std::make_shared<feti::ElasticSubdomain>(
           std::move(own), fem::rigid_motions(points, deck.kinematics), points, deck.dimension(),
-          deck.solver.subdomains.factorization, most_rounded));
+          deck.solver.subdomains.factorization, most_rounded,
+          deck.solver.programme.tolerance.value ? feti::inaccurate_for_residuals : feti::inaccurate));
     } catch (const Error& error) {
       if (error.status() != ExitStatus::bad_input) throw;
       const auto& body = decomposition.catalogue.bodies[static_cast<std::size_t>(subdomain.body)];

@@ -181,14 +181,15 @@ class SparseInterface : public InterfaceStiffness {
 
 // `lower` is taken by a swap: Eigen 3.4 has no move of sparse matrices.
 ElasticSubdomain::ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
-                                   const std::string& factorization, std::optional<double> most_rounded, bool refined)
+                                   const std::string& factorization, std::optional<double> most_rounded, double refined_from)
     : kernel_(std::move(kernel)), dimension_(dimension)
 {
   stiffness_.swap(lower);
   column_block_ = has_column_blocks(stiffness_, dimension) ? dimension : 1;
   fixing_ = fixing_term(diagonal(), kernel_, points, dimension);
   solver_ = std::make_unique<DirectSolver>(factorization, stiffness_ + fixing_, dimension, most_rounded);
-  if (refined && rounding() == 0) inaccuracy_ = measured_inaccuracy();
+  if (rounding() > 0) return;
+  if (const double measured = measured_inaccuracy(); measured > refined_from) inaccuracy_ = measured;
 }
 
 // Of a vector that all motions are part of, those of single nodes above all: what rounding makes of it is mostly the softest

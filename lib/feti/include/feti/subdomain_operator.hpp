@@ -62,8 +62,9 @@ class SubdomainOperator {
   virtual void rotate(Eigen::VectorXd&) const {}
 };
 
-/// Above this inaccuracy() solutions are refined.
-constexpr double inaccurate = 3e-8;
+/// Above this inaccuracy() solutions are refined; and above the other one where a residual is asked for: products take longer so,
+/// and are needed by hundreds then, while sheets 1,000 times as wide as thick, of 1e-5 and more, are wrong without.
+constexpr double inaccurate = 3e-8, inaccurate_for_residuals = 5e-6;
 
 /// The operators of this rank's subdomains, in the order of Decomposition::subdomains. Copies by translation have the same one.
 using Subdomains = std::vector<std::shared_ptr<const SubdomainOperator>>;
@@ -86,9 +87,9 @@ void apply_inverse(const Subdomains& subdomains, std::vector<Eigen::VectorXd>& v
 class ElasticSubdomain : public SubdomainOperator {
  public:
   /// `lower`: lower triangle of K, unknown dimension * node + component. `kernel`: orthonormal rigid motions. Throws as
-  /// DirectSolver, which says what `most_rounded` is. `refined`: where double precision is inaccurate solutions are refined.
+  /// DirectSolver, which says what `most_rounded` is. `refined_from`: the inaccuracy above which solutions are refined.
   ElasticSubdomain(SparseMatrix lower, Eigen::MatrixXd kernel, std::span<const Point> points, int dimension,
-                   const std::string& factorization, std::optional<double> most_rounded = {}, bool refined = true);
+                   const std::string& factorization, std::optional<double> most_rounded = {}, double refined_from = inaccurate);
   /// Bytes that the factor of such a subdomain will take, from the analysis of its pattern alone.
   static std::size_t foreseen_factor_bytes(const SparseMatrix& lower, const Eigen::MatrixXd& kernel,
                                            std::span<const Point> points, int dimension);
