@@ -269,3 +269,8 @@ mortise_regression(clamped_sheets VARIANT .prism15 EXPECTED cases/clamped_sheets
 mortise_regression(clamped_sheets VARIANT .2000 EXPECTED cases/clamped_sheets.2000.expected.json RANKS 1 STUDY_RANKS 2 3
                    SET mesh.blocks.lower.size=[100,100,0.05] mesh.blocks.upper.size=[100,100,0.05] mesh.blocks.upper.origin=[0,0,0.05]
                        loads.0.pressure=4.2e-9)
+
+mortise_regression(hardly_pressed RANKS 1 STUDY_RANKS 2 3)
+mortise_regression(hardly_pressed VARIANT .friction EXPECTED cases/hardly_pressed.friction.expected.json RANKS 1 STUDY_RANKS 2
+                   SET contacts.0.friction.coulomb=0.3 solver.tolerance=1e-3)
+mortise_regression(pressed_flat RANKS 1 STUDY_RANKS 2)

@@ -50,7 +50,11 @@ DualSolver::DualSolver(std::shared_ptr<const feti::DualSystem> system, std::vect
 qp::Goal DualSolver::goal(const feti::DualProblem& problem, const qp::Goal& accuracy) const
 {
   if (tolerance_)
-    return {.residual = *tolerance_, .incompatibility = accuracy.incompatibility, .energy_norm = accuracy.energy_norm};
+    return {.residual = *tolerance_,
+            .contact_converged = [&problem](const Vector& x, const Vector& /*argument*/,
+                                            const Vector& off) { return feti::contact_forces_known(problem, x, off); },
+            .incompatibility = accuracy.incompatibility,
+            .energy_norm = accuracy.energy_norm};
   qp::Goal goal = accuracy;
   goal.contact_converged = [&problem](const Vector& x, const Vector& argument, const Vector& off) {
     return feti::contact_converged(problem, x, argument, off);

@@ -16,6 +16,9 @@ constexpr double row_in_space = 4;  // points around n that press: a little more
 constexpr double row_in_planes = 2;
 constexpr double part_of_row = 0.1;  // that may be open: a tenth of a cell at the rim
 
+constexpr double force_known = 0.1;  // change of a contact's force over that force
+constexpr double no_force = 1e-3;    // over the least load of a body, or the largest force of a contact where none is loaded
+
 }  // namespace
 
 bool contact_converged(const DualProblem& problem, const Vector& x, const Vector& argument, const Vector& change)
@@ -47,6 +50,20 @@ bool contact_converged(const DualProblem& problem, const Vector& x, const Vector
     const double row = problem.dimension() == 3 ? row_in_space * std::sqrt(pressed[c]) : row_in_planes;
     if (moved[c] > known * pressures.largest(c) || undecided[c] > part_of_row * row) return false;
   }
+  return true;
+}
+
+bool contact_forces_known(const DualProblem& problem, const Vector& x, const Vector& change)
+{
+  const auto& bonded = problem.constraints().contacts.bonded;
+  const Eigen::VectorXd differs = problem.forces(change);
+  const Pressures pressures(problem, x);
+  std::vector<double> moved(pressures.parts(), 0.0);
+  for (std::size_t i = 0; i < bonded.size(); ++i)
+    if (!bonded[i]) moved[pressures.part_of(i)] += differs[problem.node_rows()[i].normal];
+  problem.communicator().sum_in_place(moved);
+  for (std::size_t c = 0; c < moved.size(); ++c)
+    if (std::abs(moved[c]) > force_known * std::max(pressures.force(c), pressures.force_that_counts(c))) return false;
   return true;
 }
 

@@ -98,6 +98,16 @@ double Pressures::of(std::size_t point, double force) const
   return force / node.area;
 }
 
+double Pressures::force_that_counts(std::size_t part) const
+{
+  const double load = least_load_[group_[part]];
+  if (std::isfinite(load)) return idle_part * load;
+  double largest = 0;
+  for (std::size_t p = 0; p < group_.size(); ++p)
+    if (group_[p] == group_[part]) largest = std::max(largest, force_[p]);
+  return idle_part * largest;
+}
+
 bool Pressures::idle(std::size_t part) const
 {
   return largest_[part] < idle_part * all_[group_[part]] && force_[part] < idle_part * least_load_[group_[part]];

@@ -24,6 +24,11 @@ class Pressures {
   /// Of a point of this rank.
   std::size_t part_of(std::size_t point) const { return part_[point]; }
   double largest(std::size_t part) const { return largest_[part]; }
+  /// The sum of normal forces that press.
+  double force(std::size_t part) const { return force_[part]; }
+  /// Below this a force does not matter: a thousandth of the least load of a body in the part's group, or of the largest force of
+  /// a contact there if none is loaded.
+  double force_that_counts(std::size_t part) const;
   /// Whether it only touches: it presses with less than a thousandth of the largest pressure in its group of bodies, and its
   /// force is less than a thousandth of what acts on any body there that is loaded. So a block's weight matters beside a press.
   bool idle(std::size_t part) const;

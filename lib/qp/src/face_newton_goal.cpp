@@ -90,7 +90,11 @@ bool FaceNewton::is_solved(Run& run, const Projection& natural)
   if (!solved && goal.exact > 0 && goal.allowed_error && std::isfinite(result.error))
     solved = result.error <= goal.exact * goal.energy_norm(z, result.nu);
   if (!solved && run.since_best >= Limits::stands_still) solved = is_exact_but_for_residual(run);
-  if (!solved || (goal.allowed_error && !contact())) return false;
+  if (!solved) return false;
+  if (!contact()) {
+    run.doubtful = run.doubtful || !goal.allowed_error;  // the next active set has a smaller residual to come down to
+    return false;
+  }
   if ((!goal.allowed_error || radii_at_rest(run)) && is_compatible(run)) return true;
   run.doubtful = true;
   return false;
@@ -148,6 +152,7 @@ bool FaceNewton::contact_converged(const Run& run, const Projection& natural)
   // What A^-1 then makes of the residual is rounding among rows that depend on each other, as where three bodies meet.
   const bool settled = run.worst() <= (goal.exact > 0 ? Limits::residual_of_direct : limits::Every::rounding) * run.size;
   if (!goal.contact_converged || !preconditioner_ || settled) return true;
+  if (!goal.allowed_error && run.result.error <= rounding_of_error(run.problem.right.b, norm_)) return true;
   Vector gap(z, Teuchos::Copy), change(z.getMap());
   gap.update(-norm_, natural.point, norm_);
   preconditioner_->fix({}, {});

@@ -11,4 +11,9 @@ namespace mortise::feti {
 /// Collective.
 bool contact_converged(const DualProblem& problem, const Vector& x, const Vector& argument, const Vector& change);
 
+/// Whether the normal force of every contact is known to a tenth at the multipliers x, from which those of the solution differ by
+/// about `change`. For runs whose residual is given: it bounds what is left of all loads, and a contact may carry less than that.
+/// Forces below a thousandth of the least load of a body do not matter. Collective.
+bool contact_forces_known(const DualProblem& problem, const Vector& x, const Vector& change);
+
 }  // namespace mortise::feti

@@ -19,9 +19,9 @@ struct Goal {
   /// With an allowed error, about what it is: from the last product, which was that with x. It may lose figures and costs no
   /// product; no solve stops by it. Collective.
   std::function<double(const Vector& x, const Eigen::VectorXd& nu)> expected_allowed_error = {};
-  /// With an allowed error, whether the point x, which a solution differs from by about `change`, will do; asked where the error
-  /// would. `argument` is that of the natural projection: how far it lies from the border of a constraint's half-line or disc
-  /// tells how firmly its state is decided. Collective.
+  /// Whether the point x, which a solution differs from by about `change`, will do; asked where the error, or the residual, would.
+  /// `argument` is that of the natural projection: how far it lies from the border of a constraint's half-line or disc tells how
+  /// firmly its state is decided. Collective.
   std::function<bool(const Vector& x, const Vector& argument, const Vector& change)> contact_converged = {};
   /// How far the primal solution at x, nu is from fulfilling its constraints, over its own size: energy and residuals feel little
   /// of what is soft. Asked for last. Collective.
