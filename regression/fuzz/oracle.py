@@ -137,7 +137,8 @@ def judge(done, names, directory=None):
     if done.status not in range(5):
         return [f"exit status {done.status}"]
     complaints = []
-    if done.resident > RESIDENT:
+    told = done.status == 4 and "gmsh: it took more memory than the machine has" in done.err  # in a process of its own
+    if done.resident > RESIDENT and not told:
         complaints.append(f"memory: {done.resident / 1e9:.1f} GB")
     if found := FOREIGN.search(re.sub(r"gmsh crashed \([^)]*\)", "", done.err)):  # in a process of its own
         complaints.append(f"message: it holds {found[0]!r}")

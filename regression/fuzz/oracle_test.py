@@ -30,9 +30,10 @@ class Judge(unittest.TestCase):
             return oracle.judge(done, ["deck.yaml"], pathlib.Path(scratch))
 
     def test_how_it_ended(self):
-        check = lambda *a, **k: oracle.judge(ended(*a, **k), ["deck.yaml"])
+        check = lambda *a, names=("deck.yaml",), **k: oracle.judge(ended(*a, **k), names)
         self.assertEqual(check(0), [])
         self.assertEqual(check(1, err='deck.yaml:3: seats: expected a number, found "nan"'), [])
+        self.assertEqual(check(4, err="a.geo: gmsh: it took more memory than the machine has for it", resident=9e9, names=["a.geo"]), [])
         for bad in (check(-11), check(134), check(5), check(0, hung=True), check(0, resident=9e9), check(1), check(3), check(4), check(1, err="no"),
                     check(2), check(4, err="mortise: rank 0: std::bad_alloc"), check(1, err="deck.yaml:1: terminate called"), check(0, out="energy nan")):
             self.assertTrue(bad)
