@@ -122,9 +122,8 @@ class Surfaces {
     const auto& body = bodies_.at(number);
     const double size = size_of(own);
     std::vector<int> found;
-    std::vector<std::pair<ClosestPoint, std::size_t>> places;                       // with the facet
-    const double first = size > 0 ? std::min(size, range.largest) : range.largest;  // cells may be pressed flat
-    for (double reach = first;; reach = std::min(4 * reach, range.largest)) {
+    std::vector<std::pair<ClosestPoint, std::size_t>> places;  // with the facet
+    for (double reach = std::min(size, range.largest);; reach = farther(reach, range.largest)) {
       double nearest = reach;
       places.clear();
       found.clear();

@@ -108,7 +108,7 @@ class MovedSkin {
     const auto first = x.facets.front();
     ClosestPoint best{x.now, std::numeric_limits<double>::infinity(), Point::Zero()};
     std::size_t nearest = first;
-    for (double reach = std::min(skin_.facet[first].size(), largest);; reach = std::min(4 * reach, largest)) {
+    for (double reach = std::min(skin_.facet[first].size(), largest);; reach = farther(reach, largest)) {
       tree_.candidates(Box(x.now - Point::Constant(reach), x.now + Point::Constant(reach)), found_);
       for (const int candidate : found_) {
         const std::size_t g = at(candidate);

@@ -1,6 +1,8 @@
 // The place of a facet that is nearest to a point.
 #pragma once
 
+#include <algorithm>
+
 #include "integrals/overlap.hpp"
 
 namespace mortise::contact {
@@ -12,6 +14,13 @@ struct ClosestPoint {
   /// Normal of the triangle or line, times the angle that it fills at the place: 2 pi inside, pi on an edge (lines: 2 and 1).
   Point normal;
 };
+
+/// Where nothing was found within `reach`, the distance to look within next: four times as far, at most `largest`. After 0, the
+/// size of faces that a load has pressed flat, `largest`.
+inline double farther(double reach, double largest)
+{
+  return reach > 0 ? std::min(4 * reach, largest) : largest;
+}
 
 /// Calls use(ClosestPoint) for each triangle, or the line, of a facet that is not collapsed.
 template <class Use>
