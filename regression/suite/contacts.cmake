@@ -270,6 +270,13 @@ mortise_regression(clamped_sheets VARIANT .2000 EXPECTED cases/clamped_sheets.20
                    SET mesh.blocks.lower.size=[100,100,0.05] mesh.blocks.upper.size=[100,100,0.05] mesh.blocks.upper.origin=[0,0,0.05]
                        loads.0.pressure=4.2e-9)
 
+# Which solution is found without loads on their way depends on the mesh.
+mortise_regression(locked_wedge RANKS 1 STUDY_RANKS 2 3)
+foreach(size 1.2 1.75)
+  mortise_regression(locked_wedge VARIANT .${size} EXPECTED cases/locked_wedge.expected.json RANKS 1 SET mesh.constants.h=${size})
+endforeach()
+mortise_regression(locked_wedge VARIANT .8 EXPECTED cases/locked_wedge.8.expected.json RANKS 1 SET mesh.constants.h=1.2 mesh.constants.angle=8)
+
 mortise_regression(hardly_pressed RANKS 1 STUDY_RANKS 2 3)
 mortise_regression(hardly_pressed VARIANT .friction EXPECTED cases/hardly_pressed.friction.expected.json RANKS 1 STUDY_RANKS 2
                    SET contacts.0.friction.coulomb=0.3 solver.tolerance=1e-3)

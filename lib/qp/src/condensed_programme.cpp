@@ -26,8 +26,7 @@ CondensedProgramme::CondensedProgramme(const CondensedMatrices& matrices, const 
 CondensedProgramme::CondensedProgramme(std::unique_ptr<ContactSystem> system, FeasibleSet set, VectorXd b, VectorXd e)
     : system_(std::move(system)),
       set_(std::move(set)),
-      b_(std::move(b)),
-      e_(std::move(e)),
+      loads_{std::move(b), std::move(e)},
       own_(shared_by_discs(system_->own(), set_))
 {
   std::vector<int> bound_at(static_cast<std::size_t>(unknowns()), -1);
@@ -47,9 +46,14 @@ void CondensedProgramme::soften(double softness, double scale)
   step_ = scale * (own_ * (1 + softness)).cwiseInverse();
 }
 
+CondensedProgramme::Loads CondensedProgramme::loads_of(const VectorXd& x, const VectorXd& nu, const VectorXd& reaction) const
+{
+  return {system_->give(x) + system_->push(nu) - reaction, system_->excess(x, nu, VectorXd::Zero(motions()))};
+}
+
 VectorXd CondensedProgramme::gradient(const VectorXd& x, const VectorXd& nu) const
 {
-  return system_->give(x) + softness_ * own_.cwiseProduct(x) + system_->push(nu) - b_;
+  return system_->give(x) + softness_ * own_.cwiseProduct(x) + system_->push(nu) - loads_.b;
 }
 
 ConstraintStates CondensedProgramme::all_closed() const
@@ -122,14 +126,14 @@ double CondensedProgramme::residual(const VectorXd& x, const VectorXd& nu) const
       for (int k = 0; k < disc.size(); ++k) y[disc.index[static_cast<std::size_t>(k)]] += (radius / length - 1) * w[k];
   }
   double square = (x - y).cwiseProduct(own_).dot(x - y);
-  if (motions() > 0) square += system_->square(system_->lack(x, nu, e_));
+  if (motions() > 0) square += system_->square(system_->lack(x, nu, loads_.e));
   return std::sqrt(square);
 }
 
 double CondensedProgramme::size(const VectorXd& x) const
 {
   const double square = x.cwiseProduct(own_).dot(x);
-  return std::sqrt(square > 0 || motions() == 0 ? square : system_->square(e_));
+  return std::sqrt(square > 0 || motions() == 0 ? square : system_->square(loads_.e));
 }
 
 double CondensedProgramme::friction_power(const VectorXd& x, const VectorXd& step) const
@@ -159,7 +163,7 @@ double CondensedProgramme::opening(const VectorXd& step) const
 
 double CondensedProgramme::rounding(const VectorXd& x, const VectorXd& nu) const
 {
-  const VectorXd sum = system_->size_of_give(x) + b_.cwiseAbs();
+  const VectorXd sum = system_->size_of_give(x) + loads_.b.cwiseAbs();
   return std::numeric_limits<double>::epsilon() *
          std::sqrt(sum.cwiseProduct(step_).cwiseProduct(step_).cwiseProduct(own_).dot(sum) + system_->square_of_rounding(x, nu));
 }
@@ -210,7 +214,7 @@ Guess CondensedProgramme::guess_of(const ConstraintStates& states) const
 
 void CondensedProgramme::solve(const ConstraintStates& states, VectorXd& x, VectorXd& nu)
 {
-  system_->solve(guess_of(states), b_, e_, x, nu);
+  system_->solve(guess_of(states), loads_.b, loads_.e, x, nu);
 }
 
 }  // namespace mortise::qp

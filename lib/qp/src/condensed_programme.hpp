@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "central_path.hpp"
@@ -38,6 +39,14 @@ class CondensedProgramme {
   /// Steps of unknowns become the inverse of their compliance, so softened, too, times `scale`.
   void soften(double softness, double scale = 1);
   double softness() const { return softness_; }
+  /// b and e.
+  struct Loads {
+    Eigen::VectorXd b, e;
+  };
+  const Loads& loads() const { return loads_; }
+  /// Those that x and nu are a solution for, with the reaction s.
+  Loads loads_of(const Eigen::VectorXd& x, const Eigen::VectorXd& nu, const Eigen::VectorXd& reaction) const;
+  void set_loads(Loads loads) { loads_ = std::move(loads); }
   /// Everything closed and sticking.
   ConstraintStates all_closed() const;
   /// Those of x - step s, s what is felt at x and nu, or what is given.
@@ -67,7 +76,7 @@ class CondensedProgramme {
   /// The way to the solution without softness, from an x and nu near.
   CentralPath path_from(const Eigen::VectorXd& x, const Eigen::VectorXd& nu) const
   {
-    return {*system_, set_, bound_of_, b_, e_, x, nu};
+    return {*system_, set_, bound_of_, loads_.b, loads_.e, x, nu};
   }
 
   /// The same with radii that are given: those of x.
@@ -82,7 +91,7 @@ class CondensedProgramme {
       discs[d].normal = -1;
     }
     const std::vector<int> given(discs.size(), -1);
-    return {*system_, FeasibleSet(std::move(bounds), std::move(discs)), given, b_, e_, x, nu};
+    return {*system_, FeasibleSet(std::move(bounds), std::move(discs)), given, loads_.b, loads_.e, x, nu};
   }
   bool follows() const
   {
@@ -98,15 +107,15 @@ class CondensedProgramme {
 
   const ContactSystem& system() const { return *system_; }
   const FeasibleSet& set() const { return set_; }
-  Eigen::Index unknowns() const { return b_.size(); }
-  Eigen::Index motions() const { return e_.size(); }
+  Eigen::Index unknowns() const { return loads_.b.size(); }
+  Eigen::Index motions() const { return loads_.e.size(); }
 
  private:
   Guess guess_of(const ConstraintStates& states) const;
 
   std::unique_ptr<ContactSystem> system_;
   FeasibleSet set_;
-  Eigen::VectorXd b_, e_;
+  Loads loads_;
   std::vector<int> bound_of_;  // of each disc: the bound of the unknown that its radius follows, -1 if the radius is given
   Eigen::VectorXd own_;        // one compliance for both unknowns of a disc
   double softness_ = 0;

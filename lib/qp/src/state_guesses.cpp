@@ -48,23 +48,56 @@ bool takes_turns(const std::vector<int>& changes, int look_back)
 // another solution than the one that loads lead to on their way, with joints loose that are locked.
 bool StateSearch::from(const VectorXd& x, const VectorXd& nu, const VectorXd& reaction, bool solved)
 {
-  const auto begin = [&](bool sticks) {
-    point_.x = x;
-    point_.nu = nu;
-    states_ = programme_.states_at(x, reaction);
-    if (!sticks) return;
-    for (auto& kind : states_.kind)
-      if (kind == ConstraintStates::Kind::slips) kind = ConstraintStates::Kind::sticks;
-  };
+  const Before before{x, nu, reaction};
   if (!solved) {
-    begin(false);
+    begin_from(before, false);
     return from_guessed_states();
   }
   const bool same_loads = programme_.residual(x, nu) <= Limits::other_loads * programme_.size(x);
-  begin(!same_loads);
+  begin_from(before, !same_loads);
   if (guess(Limits::look_back_at_first)) return true;
-  begin(same_loads);
+  if (!same_loads && programme_.follows() && follow_loads(before)) return true;
+  begin_from(before, same_loads);
   return guess(Limits::look_back_at_first);
+}
+
+void StateSearch::begin_from(const Before& before, bool sticks)
+{
+  point_.x = before.x;
+  point_.nu = before.nu;
+  states_ = programme_.states_at(before.x, before.reaction);
+  if (!sticks) return;
+  for (auto& kind : states_.kind)
+    if (kind == ConstraintStates::Kind::slips) kind = ConstraintStates::Kind::sticks;
+}
+
+// From the loads that `before` is a solution for to those that are asked for, by steps that become shorter where guesses do not
+// converge. Coulomb's law may have several solutions: the wedge that is driven in and no longer pushed may sit or be out. Loads
+// on their way lead to the first. Slip before is where these loads find the points, and none of theirs.
+bool StateSearch::follow_loads(Before before)
+{
+  for (const auto& disc : programme_.set().discs())
+    for (int k = 0; k < disc.size(); ++k) before.reaction[disc.index[static_cast<std::size_t>(k)]] = 0;
+  const auto last = programme_.loads(), first = programme_.loads_of(before.x, before.nu, before.reaction);
+  double done = 0, stride = 0.5;
+  for (int tries = 0; done < 1 && tries < Limits::most_load_steps && stride >= Limits::least_load_step; ++tries) {
+    stride = std::min(stride, 1 - done);
+    const double part = done + stride;
+    if (part < 1)
+      programme_.set_loads({(1 - part) * first.b + part * last.b, (1 - part) * first.e + part * last.e});
+    else
+      programme_.set_loads(last);
+    begin_from(before, done == 0);
+    if (!guess(sparing_ ? Limits::look_back_at_first : to_the_end)) {
+      stride /= 2;
+      continue;
+    }
+    before = {point_.x, point_.nu, programme_.gradient(point_.x, point_.nu)};
+    done = part;
+    stride *= 2;
+  }
+  programme_.set_loads(last);
+  return done == 1;
 }
 
 // Guesses from states that another way has come to. If the first changes many of them, that way knew nothing.

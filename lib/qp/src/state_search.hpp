@@ -18,8 +18,8 @@ class StateSearch {
   /// From closed contact that sticks, by whatever leads to a solution.
   bool from_anywhere();
   /// From the states of the problem before, which x, nu and the reaction s solve, with all that slips sticking first under other
-  /// loads, then as they are. Or, unless `solved`, from those of this problem that x and s have, if one guess tells that they are
-  /// nearly right.
+  /// loads, then along the way from those loads to these, then as they are. Or, unless `solved`, from those of this problem that
+  /// x and s have, if one guess tells that they are nearly right.
   bool from(const Eigen::VectorXd& x, const Eigen::VectorXd& nu, const Eigen::VectorXd& reaction, bool solved);
   /// Steps of GMRES leave what settles states, but not all figures: thin plates bend by 1e8 times what decides about contact.
   void polish();
@@ -43,6 +43,11 @@ class StateSearch {
 
   // The residual over x.
   double off() const { return programme_.residual(point_.x, point_.nu) / programme_.size(point_.x); }
+  struct Before {
+    Eigen::VectorXd x, nu, reaction;
+  };
+  void begin_from(const Before& before, bool sticks);
+  bool follow_loads(Before before);
   bool from_guessed_states();
   bool find_sparingly();
   bool find_patiently();

@@ -123,6 +123,8 @@ struct States {
   static constexpr int idle_single = 30;           ///< for so many more,
   static constexpr int most_single_guesses = 300;  ///< or all together
   static constexpr double other_loads = 1e-3;      ///< residual of a solution before, beyond which what slipped sticks first
+  static constexpr int most_load_steps = 16;       ///< on the way to these loads, tries and all,
+  static constexpr double least_load_step = 0.05;  ///< and the shortest one
   static constexpr double residual_of_soft = 0.1;  ///< of a soft contact, which only gives states to begin with
   static constexpr int most_polishing = 4;         ///< guesses more, as long as they make the residual smaller
 
