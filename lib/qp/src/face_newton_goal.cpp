@@ -152,7 +152,8 @@ bool FaceNewton::contact_converged(const Run& run, const Projection& natural)
   // What A^-1 then makes of the residual is rounding among rows that depend on each other, as where three bodies meet.
   const bool settled = run.worst() <= (goal.exact > 0 ? Limits::residual_of_direct : limits::Every::rounding) * run.size;
   if (!goal.contact_converged || !preconditioner_ || settled) return true;
-  if (!goal.allowed_error && run.result.error <= rounding_of_error(run.problem.right.b, norm_)) return true;
+  // To a residual that is given, from a direct solution, or with nothing but rounding.
+  if (!goal.allowed_error && (goal.exact > 0 || run.result.error <= rounding_of_error(run.problem.right.b, norm_))) return true;
   Vector gap(z, Teuchos::Copy), change(z.getMap());
   gap.update(-norm_, natural.point, norm_);
   preconditioner_->fix({}, {});
