@@ -87,6 +87,11 @@ void Codec<bool>::read(bool& value, const YAML::Node& node, const std::string& p
     document.error(path, "expected true or false, found " + found(node));
 }
 
+nlohmann::ordered_json Codec<bool>::schema(const Limits&)
+{
+  return {{"type", "boolean"}};
+}
+
 void Codec<std::string>::read(std::string& value, const YAML::Node& node, const std::string& path, Document& document,
                               const Limits& limits)
 {

@@ -9,6 +9,11 @@ std::string join(const std::string& path, const std::string& key)
   return path.empty() ? key : path + "." + key;
 }
 
+void AnyDescription::rule(nlohmann::ordered_json schema)
+{
+  rules_.push_back(std::move(schema));
+}
+
 bool AnyDescription::read(void* value, const YAML::Node& node, const std::string& path, Document& document) const
 {
   if (!node.IsMap()) {

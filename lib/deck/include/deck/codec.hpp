@@ -44,7 +44,7 @@ template <>
 struct Codec<bool> {
   static void read(bool& value, const YAML::Node& node, const std::string& path, Document& document, const Limits& limits);
   static YAML::Node write(bool value) { return YAML::Node(value); }
-  static nlohmann::ordered_json schema(const Limits&) { return {{"type", "boolean"}}; }
+  static nlohmann::ordered_json schema(const Limits& limits);
 };
 template <>
 struct Codec<std::string> {

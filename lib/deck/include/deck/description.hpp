@@ -63,7 +63,7 @@ class AnyDescription {
     key_check_ = std::move(function);
   }
   /// What of its keys goes together, as a schema (cases.hpp): tells editors what the checks tell those who run the program.
-  void rule(nlohmann::ordered_json schema) { rules_.push_back(std::move(schema)); }
+  void rule(nlohmann::ordered_json schema);
 
   /// Reads a mapping into the struct at `value`, of the type described. Returns whether there was no error.
   bool read(void* value, const YAML::Node& node, const std::string& path, Document& document) const;
