@@ -52,6 +52,14 @@ MatrixXd minimum_norm(const MatrixXd& a, const MatrixXd& b)
   return a.completeOrthogonalDecomposition().solve(b);
 }
 
+RankedSolution minimum_norm(const MatrixXd& a, const MatrixXd& b, double threshold)
+{
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> factor(a.rows(), a.cols());
+  factor.setThreshold(threshold);
+  factor.compute(a);
+  return {factor.solve(b), factor.rank()};
+}
+
 MatrixXd orthogonal_factor(const MatrixXd& a)
 {
   return a.householderQr().householderQ();

@@ -24,6 +24,12 @@ Eigen::MatrixXd form(const Eigen::MatrixXd& m, const Eigen::MatrixXd& x);
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 /// The shortest of them, of an A of any shape and rank, by a complete orthogonal decomposition; B is m x k, the result n x k.
 Eigen::MatrixXd minimum_norm(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+struct RankedSolution {
+  Eigen::MatrixXd x;
+  Eigen::Index rank;  ///< of A
+};
+/// The same, where pivots below `threshold` times the largest count as 0.
+RankedSolution minimum_norm(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double threshold);
 /// Q (m x m) of A = Q R, without pivoting: the first columns span those of A (m x n, m >= n), the rest is orthogonal to them.
 Eigen::MatrixXd orthogonal_factor(const Eigen::MatrixXd& a);
 

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <vector>
 
+#include "base/dense.hpp"
 #include "base/error.hpp"
 
 namespace mortise::contact {
@@ -51,7 +52,7 @@ std::optional<double> second_derivative(const std::vector<PrescribedNode>& near)
   Point centre = Point::Zero();
   double mean = 0, reach = 0;
   for (const auto& node : near) centre += node.at / static_cast<double>(count), mean += node.value / static_cast<double>(count);
-  Eigen::MatrixX3d places(count, 3);
+  Eigen::MatrixXd places(count, 3);
   Eigen::VectorXd values(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto& node = near[static_cast<std::size_t>(i)];
@@ -59,11 +60,9 @@ std::optional<double> second_derivative(const std::vector<PrescribedNode>& near)
     values[i] = node.value - mean;
     reach = std::max(reach, (node.at - centre).norm());
   }
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixX3d> fit(count, 3);
-  fit.setThreshold(independent);
-  fit.compute(places);
-  if (count <= fit.rank() + 1) return {};
-  return of_three * (values - places * fit.solve(values)).lpNorm<Eigen::Infinity>() / (reach * reach);
+  const auto fit = dense::minimum_norm(places, values, independent);
+  if (count <= fit.rank + 1) return {};
+  return of_three * (values - places * fit.x.col(0)).lpNorm<Eigen::Infinity>() / (reach * reach);
 }
 
 std::vector<std::vector<Local>> faces_round_nodes(const Side& side)
