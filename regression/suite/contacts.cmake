@@ -275,6 +275,8 @@ mortise_regression(locked_wedge RANKS 1 STUDY_RANKS 2 3)
 foreach(size 1.2 1.75)
   mortise_regression(locked_wedge VARIANT .${size} EXPECTED cases/locked_wedge.expected.json RANKS 1 SET mesh.constants.h=${size})
 endforeach()
+mortise_regression(locked_wedge VARIANT .by_products EXPECTED cases/locked_wedge.by_products.expected.json RANKS 1 STUDY_RANKS 2
+                   SET mesh.constants.h=1.2 solver.algorithm=face_newton)
 mortise_regression(locked_wedge VARIANT .8 EXPECTED cases/locked_wedge.8.expected.json RANKS 1 SET mesh.constants.h=1.2 mesh.constants.angle=8)
 
 mortise_regression(hardly_pressed RANKS 1 STUDY_RANKS 2 3)

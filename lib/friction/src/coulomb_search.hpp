@@ -11,8 +11,8 @@ namespace mortise::friction {
 /// Where the search ends, and what it tries next. Changes are those of slip bounds, relative.
 struct SearchLimits {
   // Solved.
-  static constexpr double worth_a_look = 0.05;  ///< change at which the allowed error is asked for, which costs a sweep
-  static constexpr double below_change = 0.1;   ///< of it, residual of a Tresca problem: no more exact than its bounds are known
+  static constexpr double obeyed = 2e-3;       ///< change up to which the law is; then the allowed error is asked for, by a sweep
+  static constexpr double below_change = 0.1;  ///< of it, residual of a Tresca problem: no more exact than its bounds are known
   static constexpr double below_tolerance = 0.1;  ///< of the loop's tolerance, the same once bounds rest
   static constexpr double stricter = 0.1;         ///< times the residuals before, where bounds rest beside too large an error
   static constexpr int idle_steps = 3;  ///< without a smaller change: light groups of bodies feel what solutions leave of others

@@ -92,7 +92,7 @@ bool CoulombSearch::at_rest(Found& found, const std::vector<double>& wanted, dou
   if (!goal.allowed_error || !std::isfinite(solution.error))
     return bounds_rest && tolerance <= goal.residual && solution.converged && believable(solution);
   solution.error += error_of_bounds(solution, wanted) * to_come(response);
-  if (change_ <= Limits::worth_a_look && solution.error <= goal.allowed_error(solution.x, solution.nu) &&
+  if (change_ <= Limits::obeyed && solution.error <= goal.allowed_error(solution.x, solution.nu) &&
       qp::fits(solution, goal) && balances(problem_.dual, problem_.omega, wanted, solution.x) && contacts_at_rest(solution) &&
       judge(found))
     return true;
