@@ -83,10 +83,7 @@ bool StateSearch::follow_loads(Before before)
   for (int tries = 0; done < 1 && tries < Limits::most_load_steps && stride >= Limits::least_load_step; ++tries) {
     stride = std::min(stride, 1 - done);
     const double part = done + stride;
-    if (part < 1)
-      programme_.set_loads({(1 - part) * first.b + part * last.b, (1 - part) * first.e + part * last.e});
-    else
-      programme_.set_loads(last);
+    programme_.set_loads({(1 - part) * first.b + part * last.b, (1 - part) * first.e + part * last.e});
     begin_from(before, done == 0);
     if (!guess(sparing_ ? Limits::look_back_at_first : to_the_end)) {
       stride /= 2;
