@@ -50,10 +50,9 @@ add_library(mortise_test_options INTERFACE)
 target_link_libraries(mortise_test_options INTERFACE mortise_options)
 target_compile_options(mortise_test_options INTERFACE $<$<CONFIG:Release>:-O1>)
 
-# Levels of optimization in Release; all modules that are not named have that of CMAKE_CXX_FLAGS_RELEASE, -O3. Optimizing is half of the
-# compiler's work. At -O1, what runs once for a deck, a mesh or a state and takes little of a run's time: its files compile in five sixths of
-# the time. At -O2, what goes through all cells or facets by short loops, which -O3 hardly changes. With clang the level of a file is that of
-# its command line; g++ takes it from the precompiled headers.
+# Levels of optimization in Release; all modules that are not named have that of CMAKE_CXX_FLAGS_RELEASE, -O3. At -O1, what runs once for a
+# deck, a mesh or a state and takes little of a run's time; at -O2, what goes through all cells or facets by short loops, which -O3 hardly
+# changes: see docs/building.md. With clang the level of a file is that of its command line; g++ takes it from the precompiled headers.
 set(mortise_modules_O1 deck mesh partition constraint friction io model analysis output mortise_app mortise_solver)
 set(mortise_modules_O2 contact fem post)
 
@@ -71,6 +70,9 @@ function(mortise_headers name)
   add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   target_link_libraries(${name} PRIVATE ${arg_LINKS} mortise_options)
   target_precompile_headers(${name} PRIVATE ${arg_HEADERS})
+  # CMake gives the file that names the headers the time of the top CMakeLists.txt, so another list here would go unseen.
+  set_source_files_properties(${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${name}.dir/cmake_pch.hxx.cxx
+    PROPERTIES OBJECT_DEPENDS ${CMAKE_CURRENT_FUNCTION_LIST_FILE})
 endfunction()
 
 set(common_headers <Eigen/Core> <Eigen/Geometry> <Eigen/LU> <Eigen/SparseCore> ${CMAKE_SOURCE_DIR}/lib/base/include/base/eigen_kernels.hpp
