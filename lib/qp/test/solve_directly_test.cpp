@@ -7,6 +7,33 @@
 namespace mortise::qp {
 namespace {
 
+// A random programme with products that are off by so much of their size, `patience` of them, so that SMALSE-M does not go on.
+// `at_once`: A x - b is exact.
+struct RoughSetting : Setting {
+  RoughSetting(double off, int patience, bool at_once = false)
+      : rough(programme.a, off),
+        hessian(rough, 4000, at_once ? exact_gradient() : Hessian::Gradient()),
+        rough_budget(hessian, {}, false)
+  {
+    rough_budget.start(Patience(patience));
+  }
+  std::unique_ptr<Solver> make()
+  {
+    return solver_kind("direct").make({hessian, programme.equality, programme.set}, {rough_budget, nullptr, means.make_explicit});
+  }
+  Hessian::Gradient exact_gradient()
+  {
+    return [this](const Vector& x, const RightHandSide& right, Vector& result) {
+      result.assign(right.b);
+      programme.a.apply(x, result, Teuchos::NO_TRANS, 1, -1);
+    };
+  }
+
+  RoughOperator rough;
+  Hessian hessian;
+  Budget rough_budget;
+};
+
 // An exact start needs no more than what shows that it is one.
 TEST(DirectSolver, IsShownByAFewProducts)
 {
@@ -200,14 +227,9 @@ TEST(DirectSolver, AnswersOneSolveWithAJudgedSolution)
 TEST(DirectSolver, JudgesTheSolutionByMatricesWhereFacesDoNotConverge)
 {
   for (const bool pass_on : {false, true}) {
-    Setting setting;
+    RoughSetting setting(1e-5, 390);
     auto& programme = setting.programme;
-    const RoughOperator rough(programme.a, 1e-5);
-    Hessian hessian(rough, 4000);
-    Budget budget(hessian, {}, false);
-    budget.start(Patience(390));  // SMALSE-M is not to go on
-    const auto solver =
-        solver_kind("direct").make({hessian, programme.equality, programme.set}, {budget, nullptr, setting.means.make_explicit});
+    const auto solver = setting.make();
     const auto radii = programme.set.radii();
     Goal goal{1e-8};
     goal.allowed_error = [](const Vector&, const Eigen::VectorXd&) { return 1e-3; };
@@ -227,14 +249,9 @@ TEST(DirectSolver, JudgesTheSolutionByMatricesWhereFacesDoNotConverge)
 TEST(DirectSolver, EndsWhereRoundingKeepsTheResidual)
 {
   for (const double off : {1e-9, 1e-2}) {
-    Setting setting;
+    RoughSetting setting(off, 1500);
     auto& programme = setting.programme;
-    const RoughOperator rough(programme.a, off);
-    Hessian hessian(rough, 4000);
-    Budget budget(hessian, {}, false);
-    budget.start(Patience(1500));  // SMALSE-M is not to go on
-    const auto solver =
-        solver_kind("direct").make({hessian, programme.equality, programme.set}, {budget, nullptr, setting.means.make_explicit});
+    const auto solver = setting.make();
     Goal goal{1e-14};
     goal.energy_norm = [&](const Vector& x, const Eigen::VectorXd&) { return programme.distance(x, 0 * gathered(x, world())); };
     const auto radii = programme.set.radii();
@@ -243,7 +260,7 @@ TEST(DirectSolver, EndsWhereRoundingKeepsTheResidual)
     const auto solution = solver->solve(programme.right, radii, start, goal, {}, &known);
     EXPECT_EQ(solution.converged, off < 1e-6);
     if (off > 1e-6) continue;
-    EXPECT_LT(hessian.count(), 300);
+    EXPECT_LT(setting.hessian.count(), 300);
     EXPECT_GT(solution.projected_gradient, goal.residual);
     EXPECT_LT(programme.distance(solution.x, programme.reference()), 1e-6 * goal.energy_norm(solution.x, solution.nu));
   }
@@ -253,22 +270,14 @@ TEST(DirectSolver, EndsWhereRoundingKeepsTheResidual)
 TEST(DirectSolver, KnowsItsDefectFromWhoMakesItAtOnce)
 {
   for (const bool at_once : {false, true}) {
-    Setting setting;
+    RoughSetting setting(1e-2, 390, at_once);
     auto& programme = setting.programme;
-    const RoughOperator rough(programme.a, 1e-2);
-    const auto gradient = [&](const Vector& x, const RightHandSide& right, Vector& result) {
-      result.assign(right.b);
-      programme.a.apply(x, result, Teuchos::NO_TRANS, 1, -1);
+    setting.means.make_explicit = [&] {
+      auto result = setting.explicit_programme();
+      result.rough_products = true;
+      return result;
     };
-    Hessian hessian(rough, 4000, at_once ? Hessian::Gradient(gradient) : Hessian::Gradient());
-    Budget budget(hessian, {}, false);
-    budget.start(Patience(390));  // SMALSE-M is not to go on
-    const auto solver =
-        solver_kind("direct").make({hessian, programme.equality, programme.set}, {budget, nullptr, [&] {
-                                                                                    auto result = setting.explicit_programme();
-                                                                                    result.rough_products = true;
-                                                                                    return result;
-                                                                                  }});
+    const auto solver = setting.make();
     const auto radii = programme.set.radii();
     Goal goal{1e-8};
     goal.allowed_error = [](const Vector&, const Eigen::VectorXd&) { return 1e-6; };
@@ -277,7 +286,7 @@ TEST(DirectSolver, KnowsItsDefectFromWhoMakesItAtOnce)
     const Foreknown known = solver->begin(programme.right, radii, start, goal, {});
     EXPECT_EQ(known.answer.has_value(), at_once);
     if (!at_once) continue;
-    EXPECT_EQ(hessian.count(), 1);
+    EXPECT_EQ(setting.hessian.count(), 1);
     EXPECT_LT(programme.distance(known.answer->x, programme.reference()), 1e-6);
   }
 }
@@ -305,13 +314,9 @@ void spoil(ExplicitProgramme::Result& found, double size)
 TEST(DirectSolver, LetsTheBetterMatricesJudge)
 {
   for (const bool better : {false, true}) {
-    Setting setting;
+    RoughSetting setting(1e-5, 390);
     auto& programme = setting.programme;
-    const RoughOperator rough(programme.a, 1e-5);
-    Hessian hessian(rough, 4000);
-    Budget budget(hessian, {}, false);
-    budget.start(Patience(390));  // SMALSE-M is not to go on
-    const auto make_explicit = [&] {
+    setting.means.make_explicit = [&] {
       auto first = setting.explicit_programme([](ExplicitProgramme::Result& found) { found.converged = false; });
       first.rough_products = better;
       first.instead = [&] {
@@ -321,8 +326,7 @@ TEST(DirectSolver, LetsTheBetterMatricesJudge)
       };
       return first;
     };
-    const auto solver =
-        solver_kind("direct").make({hessian, programme.equality, programme.set}, {budget, nullptr, make_explicit});
+    const auto solver = setting.make();
     Goal goal{1e-8};
     goal.allowed_error = [](const Vector&, const Eigen::VectorXd&) { return 1e-3; };
     goal.energy_norm = [&](const Vector& x, const Eigen::VectorXd&) { return programme.distance(x, 0 * gathered(x, world())); };
