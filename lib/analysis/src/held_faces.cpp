@@ -4,9 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <unordered_map>
 
+#include "at_nodes.hpp"
+#include "mesh/face_area.hpp"
 #include "sent_points.hpp"
 
 namespace mortise::analysis {
@@ -96,7 +97,7 @@ bool hold_across(std::span<const Hold> holds)
   return !holds.empty() && holds.front().direction == across_contact;
 }
 
-// A face that holds its nodes, at one of them; the length of its normal is about its area.
+// A face that holds its nodes, at one of them; the length of its normal is its area.
 struct NormalAtNode {
   Global node, face;
   std::array<double, 3> normal;
@@ -111,22 +112,13 @@ std::vector<NormalAtNode> normals_at_nodes(const mesh::Surface& surface, const F
     const auto load = loads.find(surface.face_id[f]);
     if (load == loads.end() || !load->second.holds || mesh::second_order(surface.faces.type[f])) continue;
     const auto nodes = surface.faces[f];
-    const auto at = [&](std::size_t i) -> const Point& { return surface.points[static_cast<std::size_t>(nodes[i])]; };
-    Point normal;
-    if (nodes.size() == 2)
-      normal = (at(1) - at(0)).cross(Point::UnitZ());
-    else
-      normal = nodes.size() == 3 ? (at(1) - at(0)).cross(at(2) - at(0)) : (at(2) - at(0)).cross(at(3) - at(1));
+    const Point normal = mesh::area_vector(surface.points, nodes, surface.faces.type[f]);
     for (const Local n : nodes) {
       const Global node = surface.node_id[static_cast<std::size_t>(n)];
       send[homes(node)].push_back({node, surface.face_id[f], components(normal)});
     }
   }
-  std::vector<NormalAtNode> result;
-  for (const auto& part : comm.exchange(send)) result.insert(result.end(), part.begin(), part.end());
-  std::sort(result.begin(), result.end(),
-            [](const NormalAtNode& a, const NormalAtNode& b) { return std::tie(a.node, a.face) < std::tie(b.node, b.face); });
-  return result;
+  return by_node_and_face(send, comm);
 }
 
 // A copy of a held node: the unit normal of the faces that hold it, out of the body.

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
+#include "at_nodes.hpp"
 #include "mesh/shape_functions.hpp"
 #include "nodes_in_rows.hpp"
 #include "planes_at_copies.hpp"
@@ -93,11 +93,7 @@ std::vector<FaceAtNode> faces_at_nodes(const mesh::Surface& surface, const parti
           {node, surface.face_id[f], components(normal / size), components(face.middle() - surface.points[at]), size, plane});
     }
   }
-  std::vector<FaceAtNode> result;
-  for (const auto& part : comm.exchange(send)) result.insert(result.end(), part.begin(), part.end());
-  std::sort(result.begin(), result.end(),
-            [](const FaceAtNode& a, const FaceAtNode& b) { return std::tie(a.node, a.face) < std::tie(b.node, b.face); });
-  return result;
+  return by_node_and_face(send, comm);
 }
 
 // What acts at a node: on a plane that it may slide along, with this normal, or something that may act along faces.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cell_stress.hpp"
+#include "mesh/face_area.hpp"
 
 namespace mortise::fem {
 
@@ -19,9 +20,9 @@ Eigen::Matrix3d matrix_of(const Stress& s)
   return Eigen::Matrix3d{{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
 }
 
-std::span<const int> nodes_of(const mesh::Mesh& mesh, const HeldFace& face)
+const mesh::Face& face_of(const mesh::Mesh& mesh, const HeldFace& face)
 {
-  return mesh::faces(mesh.cells.type[static_cast<std::size_t>(face.cell)])[static_cast<std::size_t>(face.face)].nodes;
+  return mesh::faces(mesh.cells.type[static_cast<std::size_t>(face.cell)])[static_cast<std::size_t>(face.face)];
 }
 
 bool is_between_cells(const HeldFace& face)
@@ -50,19 +51,19 @@ struct FaceGeometry {
 FaceGeometry geometry_of(const mesh::Mesh& mesh, const HeldFace& face, Kinematics kinematics)
 {
   const auto cell = mesh.cells[static_cast<std::size_t>(face.cell)];
-  std::vector<Point> at;
-  for (const int k : nodes_of(mesh, face)) at.push_back(mesh.points[static_cast<std::size_t>(cell[static_cast<std::size_t>(k)])]);
-  Point vector;
-  if (at.size() == 2)
-    vector = (at[1] - at[0]).cross(Point::UnitZ()) * thickness(kinematics, (at[0][0] + at[1][0]) / 2);
-  else
-    vector = at.size() == 3 ? (at[1] - at[0]).cross(at[2] - at[0]) / 2 : (at[2] - at[0]).cross(at[3] - at[1]) / 2;
+  const auto& shape = face_of(mesh, face);
+  std::vector<Local> nodes;
+  for (const int k : shape.nodes) nodes.push_back(cell[static_cast<std::size_t>(k)]);
+  const auto at = [&](std::size_t i) -> const Point& { return mesh.points[static_cast<std::size_t>(nodes[i])]; };
+  Point vector = mesh::area_vector(mesh.points, nodes, shape.type);
+  if (mesh::corner_count(shape.type) == 2) vector *= thickness(kinematics, (at(0)[0] + at(1)[0]) / 2);
   FaceGeometry result;
   result.area = vector.norm();
   if (result.area > 0) result.normal = vector / result.area;
-  for (const Point& x : at) result.thickness = std::max(result.thickness, std::abs((x - at[0]).dot(face.across)));
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    result.thickness = std::max(result.thickness, std::abs((at(i) - at(0)).dot(face.across)));
   for (const Local n : cell)
-    result.length = std::max(result.length, (at[0] - mesh.points[static_cast<std::size_t>(n)]).dot(result.normal));
+    result.length = std::max(result.length, (at(0) - mesh.points[static_cast<std::size_t>(n)]).dot(result.normal));
   return result;
 }
 
@@ -71,7 +72,7 @@ Point traction_left(const mesh::Mesh& mesh, const HeldFace& face, const Point& n
                     const Eigen::MatrixXd& recovered, std::size_t block)
 {
   if (!is_between_cells(face)) return matrix_of(stress) * normal - face.traction * normal;
-  const auto nodes = nodes_of(mesh, face);
+  const auto& nodes = face_of(mesh, face).nodes;
   Stress between = Stress::Zero();
   for (const int k : nodes) {
     const Local node = mesh.cells[static_cast<std::size_t>(face.cell)][static_cast<std::size_t>(k)];

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cell_stress.hpp"
+#include "mesh/face_area.hpp"
 #include "mesh/shape_functions.hpp"
 #include "tensor.hpp"
 
@@ -74,21 +75,6 @@ struct Samples {
     stress = element->extrapolation.topRows(linear.count()).transpose() * values;
   }
 };
-
-Point area_vector(const mesh::Mesh& mesh, std::span<const Local> nodes, const mesh::Face& face)
-{
-  const auto at = [&](std::size_t i) -> const Point& {
-    return mesh.points[static_cast<std::size_t>(nodes[static_cast<std::size_t>(face.nodes[i])])];
-  };
-  switch (mesh::corner_count(face.type)) {
-    case 2:
-      return {at(1)[1] - at(0)[1], at(0)[0] - at(1)[0], 0};
-    case 3:
-      return (at(1) - at(0)).cross(at(2) - at(0)) / 2;
-    default:
-      return (at(2) - at(0)).cross(at(3) - at(1)) / 2;
-  }
-}
 
 template <int terms>
 void add_sample(const Point& from_node, double weight, const double* stress, double* block)
@@ -162,6 +148,7 @@ Patches sums_of(const mesh::Mesh& mesh, const Constitution& constitution, Kinema
   Samples samples;
   Stresses at_samples;
   std::vector<Point> places;
+  std::vector<Local> on_face;
   const auto visit = [&](std::size_t c, const CellGeometry& cell, const Stresses& stress, const Elasticity&) {
     const auto type = mesh.cells.type[c];
     samples.take(cell.element(), type);
@@ -186,10 +173,12 @@ Patches sums_of(const mesh::Mesh& mesh, const Constitution& constitution, Kinema
       block[Parts::seconds] += mesh::second_order(type);
     }
     for (const auto& face : mesh::faces(type)) {
-      const Point area = area_vector(mesh, nodes, face);
+      on_face.clear();
+      for (const int k : face.nodes) on_face.push_back(nodes[static_cast<std::size_t>(k)]);
+      const Point area = mesh::area_vector(mesh.points, on_face, face.type);
       const double length = area.norm();
       for (int i = 0; i < mesh::corner_count(face.type); ++i) {
-        double* areas = block_of(nodes[static_cast<std::size_t>(face.nodes[static_cast<std::size_t>(i)])]) + Parts::areas;
+        double* areas = block_of(on_face[static_cast<std::size_t>(i)]) + Parts::areas;
         for (int a = 0; a < 3; ++a) areas[a] += area[a];
         areas[3] += length;
       }

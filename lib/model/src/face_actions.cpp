@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 
+#include "mesh/face_area.hpp"
 #include "model/model.hpp"
 #include "partition/skin.hpp"
 
@@ -33,11 +34,7 @@ Plane plane_of(const mesh::Mesh& mesh, std::size_t facet)
   const auto at = [&](std::size_t i) -> const Point& { return mesh.points[static_cast<std::size_t>(nodes[i])]; };
   const auto corners = static_cast<std::size_t>(mesh::corner_count(mesh.facets.cells.type[facet]));
   Plane plane;
-  if (corners == 2)
-    plane.normal = Point(at(1)[1] - at(0)[1], at(0)[0] - at(1)[0], 0);
-  else
-    plane.normal = corners == 3 ? (at(1) - at(0)).cross(at(2) - at(0)) : (at(2) - at(0)).cross(at(3) - at(1));
-  plane.normal.normalize();
+  plane.normal = mesh::area_vector(mesh.points, nodes, mesh.facets.cells.type[facet]).normalized();
   for (std::size_t i = 0; i < corners; ++i)
     for (std::size_t j = 0; j < i; ++j) plane.size = std::max(plane.size, (at(i) - at(j)).norm());
   for (std::size_t i = 1; i < nodes.size(); ++i)

@@ -3,19 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "mesh/face_area.hpp"
+
 namespace mortise::post {
 
 namespace {
-
-// Of its corners.
-Point unit_normal(const mesh::Surface& surface, std::size_t face)
-{
-  const auto nodes = surface.faces[face];
-  const auto at = [&](std::size_t i) { return surface.points[static_cast<std::size_t>(nodes[i])]; };
-  const int corners = mesh::corner_count(surface.faces.type[face]);
-  if (corners == 2) return Point(at(1)[1] - at(0)[1], at(0)[0] - at(1)[0], 0).normalized();
-  return corners == 3 ? (at(1) - at(0)).cross(at(2) - at(0)).normalized() : (at(2) - at(0)).cross(at(3) - at(1)).normalized();
-}
 
 double size_of(const mesh::Surface& surface, std::size_t face)
 {
@@ -38,7 +30,7 @@ std::vector<Nodal> own_nodes(std::span<const contact::Pair> pairs, const partiti
   const auto look = [&](const mesh::Surface& surface, bool secondary) {
     for (std::size_t f = 0; f < surface.faces.size(); ++f) {
       const double size = size_of(surface, f);
-      const Point normal = unit_normal(surface, f);
+      const Point normal = mesh::area_vector(surface.points, surface.faces[f], surface.faces.type[f]).normalized();
       const auto nodes = surface.faces[f];
       const auto corners = static_cast<std::size_t>(mesh::corner_count(surface.faces.type[f]));
       for (std::size_t i = 0; i < nodes.size(); ++i) {
