@@ -65,7 +65,23 @@ class Scope:
         self.node_sets, self.element_sets = {}, {}
         self.surfaces, self.node_surfaces = {}, {}  # one name may stand for one of each
         self.sections = []  # (card, scope)
-        self.turned, self.shift = False, np.zeros(3)  # how an instance is placed
+        self.moves = []  # of an instance, one after the other: translations, and lines of `rotated`
+
+    def placed(self, points):
+        """Points of a part (n x 3) where this instance of it has them."""
+        for move in self.moves:
+            points = rotated(points, move) if len(move) == 7 else points + np.array((*move, 0, 0, 0)[:3])
+        return points
+
+    def placed_point(self, point):
+        return self.placed(np.array([point], dtype=float))[0]
+
+    def is_turned(self):
+        return any(len(move) == 7 for move in self.moves)
+
+    def turned(self, vector):
+        """A direction of the part, likewise."""
+        return self.placed_point(vector) - self.placed_point(np.zeros(3)) if self.is_turned() else vector
 
     def set_of(self, sets, name):
         return sets.setdefault(name.upper(), SetDefinition(name))
@@ -287,12 +303,11 @@ class Builder:
         moves = [[card.value(w, line, 0.0) for w in words] for line, words in card.rows()]
         if any(len(m) not in (0, 1, 2, 3, 7) for m in moves) or len(moves) > 2:
             raise card.error("expected a line with a translation and one with a rotation (two points and an angle)")
-        scope.turned = any(len(m) == 7 for m in moves)
-        scope.shift = sum((np.array((*m, 0, 0, 0)[:3]) for m in moves if len(m) < 7), np.zeros(3))
+        if any(len(m) == 7 and m[:3] == m[3:6] for m in moves):
+            raise card.error("the two points of the axis of the rotation are the same")
+        scope.moves = moves
         points = np.array(self.model.points[first:], dtype=float).reshape(-1, 3)
-        for move in moves:
-            points = rotated(points, move) if len(move) == 7 else points + np.array((*move, 0, 0, 0)[:3])
-        self.model.points[first:] = points.tolist()
+        self.model.points[first:] = scope.placed(points).tolist()
 
     def mesh_card(self, card, scope, _):
         if card.get("INSTANCE") and scope is self.model.assembly:

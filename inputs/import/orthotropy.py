@@ -86,7 +86,9 @@ def axes_of(model, card):
     if system == "CYLINDRICAL":
         if angle:
             raise card.error("an additional rotation of cylindrical directions has no counterpart")
-        return {"axis": numbers(b - a), "point": numbers(a if card.scope is None else a + card.scope.shift)}
+        if card.scope is not None:
+            a, b = card.scope.placed_point(a), card.scope.placed_point(b)
+        return {"axis": numbers(b - a), "point": numbers(a)}
     origin = np.array((rows[0] + [0.0] * 3)[6:9])
     if origin.any():
         model.note(card, "a third point, the origin of the two, as in Abaqus; CalculiX knows none")
@@ -97,6 +99,8 @@ def axes_of(model, card):
         frame = [x / np.linalg.norm(x), np.cross(np.cross(x, y), x), np.cross(x, y)]
         frame = [v / np.linalg.norm(v) for v in frame]
         x, y = (turned(v, frame[number - 1], angle) for v in frame[:2])
+    if card.scope is not None:
+        x, y = card.scope.turned(x), card.scope.turned(y)
     return {"x": numbers(x), "y": numbers(y)}
 
 
@@ -123,9 +127,9 @@ def of_section(model, card, scope, materials, name):
     material, orientation = materials[name], card.get("ORIENTATION")
     if "orthotropic" not in material or not orientation:
         return name
-    if scope is not None and scope.turned:
-        raise card.error(f'the instance "{scope.name}" is turned, and with it the directions of its material: give the part where it stands')
     at = orientation_of(model, orientation, card, scope)
+    if at.scope is None and scope is not None and scope.is_turned():
+        raise at.error(f'the instance "{scope.name}" is turned, and these directions are not: they belong into its part')
     key = f"{name}@{orientation.upper()}" + (f"@{at.scope.name}" if at.scope is not None else "")
     if key not in materials:
         known = [k for k in materials if k.startswith(name + "@")]

@@ -20,9 +20,8 @@ class Axes:
         self.card, self.name = card, f"transform_{number}"
         self.cylindrical = kind == "C"
         if card.scope is not None:
-            if card.scope.turned:
-                raise card.error(f'the instance "{card.scope.name}" is turned, and with it these axes: give the part where it stands')
-            a, b = (a + card.scope.shift, b + card.scope.shift) if self.cylindrical else (a, b)
+            place = card.scope.placed_point if self.cylindrical else card.scope.turned
+            a, b = place(a), place(b)
         self.point = a
         if self.cylindrical:
             self.rows = np.array([np.zeros(3), np.zeros(3), unit(card, b - a)])

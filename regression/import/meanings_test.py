@@ -290,6 +290,23 @@ class Parts(Meanings):
         found = self.axes(text)
         self.assertEqual([found[f"I{k}"]["point"] for k in (1, 2)], [[3, 0, 0], [6, 0, 0]])
 
+    TURN = "1,0,0\n2,0,0, 2,0,5, 90.\n*END INSTANCE\n"  # (x, y, z) goes to (2 - y, x - 1, z)
+
+    def test_directions_turn_with_their_instance(self):
+        found = self.axes(self.part("P", "\n1,1,0, 0,1,0") + "*INSTANCE, NAME=I, PART=P\n" + self.TURN)["I"]
+        np.testing.assert_allclose(found["x"], (-1, 1, 0), atol=1e-12)
+        np.testing.assert_allclose(found["y"], (-1, 0, 0), atol=1e-12)
+        found = self.axes(self.part("P", ", SYSTEM=CYLINDRICAL\n3,0,0, 3,1,0") + "*INSTANCE, NAME=I, PART=P\n" + self.TURN)["I"]
+        np.testing.assert_allclose(found["point"], (2, 2, 0), atol=1e-12)
+        np.testing.assert_allclose(found["axis"], (-1, 0, 0), atol=1e-12)
+
+    def test_axes_of_supports_turn_with_their_instance(self):
+        text = f"*PART, NAME=P\n{CUBE}*NSET, NSET=FOOT\n1,2,3,4\n*TRANSFORM, NSET=FOOT\n1,0,0, 0,1,0\n"
+        text += "*SOLID SECTION, ELSET=CUBE, MATERIAL=WOOD\n*END PART\n*INSTANCE, NAME=I, PART=P\n" + self.TURN + self.WOOD
+        deck = self.translate(text + step("*BOUNDARY\nI.FOOT,1,1,0.5\n*BOUNDARY\nI.FOOT,2,3\n")).deck
+        axes = next(s["axes"] for s in deck["supports"] if s["displacement"].get("x"))
+        np.testing.assert_allclose(deck["axes"][axes]["x"], (0, 1, 0), atol=1e-12)
+
     def test_one_material_with_and_without_directions(self):
         text = CUBE + SECOND.replace("MATERIAL=STEEL", "MATERIAL=WOOD, ORIENTATION=G") + "*SOLID SECTION, ELSET=CUBE, MATERIAL=WOOD\n"
         deck = self.translate(text + "*ORIENTATION, NAME=G\n0,1,0, 0,0,1\n" + self.WOOD + step("")).deck

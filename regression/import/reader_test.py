@@ -155,7 +155,7 @@ class Orthotropy(Import):
             self.assertIn(why, self.refused(text))
         part = f"*PART, NAME=P\n{CUBE}*SOLID SECTION, ELSET=CUBE, MATERIAL=WOOD, ORIENTATION=G\n*END PART\n"
         place = "*INSTANCE, NAME=A, PART=P\n0,0,0\n0,0,0, 0,0,1, 30.\n*END INSTANCE\n"
-        self.assertIn("is turned", self.refused(part + place + self.WOOD + "*ORIENTATION, NAME=G\n1,0,0, 0,1,0\n" + step("")))
+        self.assertIn("belong into its part", self.refused(part + place + self.WOOD + "*ORIENTATION, NAME=G\n1,0,0, 0,1,0\n" + step("")))
 
 
 class Writers(Import):
