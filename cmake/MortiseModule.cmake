@@ -9,6 +9,10 @@ add_library(mortise_options INTERFACE)
 target_compile_options(mortise_options INTERFACE -Wall -Wextra)
 # The C++ bindings of MPI, which MPI itself has dropped, would be compiled into every file.
 target_compile_definitions(mortise_options INTERFACE OMPI_SKIP_MPICXX)
+# What Eigen wants inlined is so at once: clang would optimize each of these small functions first. g++ refuses some.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  target_compile_definitions(mortise_options INTERFACE "EIGEN_STRONG_INLINE=__attribute__((always_inline)) inline")
+endif()
 if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
   target_link_options(mortise_options INTERFACE -Wl,--version-script=${CMAKE_CURRENT_LIST_DIR}/hide_eigen.map)
 endif()
