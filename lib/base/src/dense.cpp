@@ -32,6 +32,13 @@ MatrixXd inverse(const MatrixXd& a)
   return a.inverse();
 }
 
+std::optional<MatrixXd> inverse(const MatrixXd& a, double least)
+{
+  const Eigen::FullPivLU<MatrixXd> factor(a);
+  if (!(factor.rcond() >= least)) return std::nullopt;
+  return factor.inverse();
+}
+
 double determinant(const MatrixXd& a)
 {
   return a.determinant();

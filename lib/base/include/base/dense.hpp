@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace mortise::dense {
 
@@ -15,6 +16,8 @@ Eigen::MatrixXd solve_positive(const Eigen::MatrixXd& a, const Eigen::MatrixXd& 
 Eigen::VectorXd solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 /// A^-1 and det A of A (n x n), by the same; whoever asks for the inverse sees to it that there is one.
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);
+/// The inverse by L U with complete pivoting; none where 1 / cond(A) in the 1-norm is below `least`.
+std::optional<Eigen::MatrixXd> inverse(const Eigen::MatrixXd& a, double least);
 double determinant(const Eigen::MatrixXd& a);
 
 /// X' M X; M is n x n, X is n x k.

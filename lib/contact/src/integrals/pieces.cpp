@@ -116,9 +116,9 @@ void give_all_to(Eigen::Index k, const SmallMatrix& points, PieceIntegrals& piec
 bool move_to(const SmallMatrix& points, double least, PieceIntegrals& piece)
 {
   const auto r = piece.covered.size();
-  const Eigen::FullPivLU<SmallMatrix> factor(points);
-  if (factor.rcond() < least_rcond) return false;
-  const SmallMatrix change = factor.inverse().transpose();
+  const auto inverse = dense::inverse(points, least_rcond);
+  if (!inverse) return false;
+  const SmallMatrix change = inverse->transpose();
   const FaceShape covered = change * piece.covered;
   if (covered.minCoeff() < least * covered.sum()) return false;
   piece.points.leftCols(r) = points;
@@ -282,13 +282,12 @@ void make_dual(PieceStore::View& piece, std::span<const char> kept)
     gram = products * t.transpose();
     d = t * piece.covered;
   }
-  const Eigen::FullPivLU<SmallMatrix> factor(SmallMatrix(scale.asDiagonal() * gram * scale.asDiagonal()));
   SmallMatrix a = SmallMatrix::Identity(count, count);  // too thin for a dual basis of its own: theta~, which keeps the sums
   // Where a cut face's basis has lost linear fields with a function, resultants of dual functions need not lie in what is
   // covered; those of theta~ do.
   const bool dual = piece.dual && (piece.point_facet.empty() || drop.empty() || linear);
-  if (dual && factor.rcond() > 1e-9)
-    a = d.asDiagonal() * SmallMatrix(scale.asDiagonal() * factor.solve(SmallMatrix(scale.asDiagonal())));
+  if (const auto inverse = dense::inverse(scale.asDiagonal() * gram * scale.asDiagonal(), 1e-9); dual && inverse)
+    a = (d.cwiseProduct(scale)).asDiagonal() * *inverse * scale.asDiagonal();
 
   // psi = all theta, with rows of zeros for the dropped nodes.
   SmallMatrix all = SmallMatrix::Zero(n, n);

@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "base/dense.hpp"
+
 namespace mortise::contact {
 
 namespace {
@@ -28,8 +30,7 @@ class Scatter {
     if (!(weight_ > 0)) return 0;
     const Point middle = sum_ / weight_;
     const Eigen::Matrix3d mean = squares_ / weight_ - middle * middle.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(mean, Eigen::EigenvaluesOnly);
-    return eigen.eigenvalues()[dimension == 3 ? 1 : 2];
+    return dense::space_eigenvalues(mean)[dimension == 3 ? 1 : 2];
   }
 
  private:

@@ -257,9 +257,9 @@ class Search {
       if (!(squares(0, 0) > 0)) return std::nullopt;
       change(0, 0) = right[0] / squares(0, 0);
     } else {
-      const Eigen::FullPivLU<Eigen::Matrix3d> factor(squares);
-      if (!(factor.rcond() > 1e-6)) return std::nullopt;
-      const Eigen::Vector3d h = factor.solve(right);
+      const auto inverse = dense::inverse(squares, 1e-6);
+      if (!inverse) return std::nullopt;
+      const Eigen::Vector3d h = *inverse * right;
       change << h[0], h[1], h[1], h[2];
     }
     return inverse_of(change, first, second, at_node.curvature, least, all_round);

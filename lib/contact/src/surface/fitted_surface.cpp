@@ -144,7 +144,7 @@ std::pair<Point, double> fit_third_order(const std::vector<Point>& d, const Fitt
     right = right.cwiseQuotient(scale);
     Gram all = gram;
     all.diagonal() += held.cwiseAbs2();
-    const Unknowns found = all.ldlt().solve(right), c = found.cwiseQuotient(scale);
+    const Unknowns found = dense::solve_symmetric(all, right), c = found.cwiseQuotient(scale);
     surface.left = std::sqrt(std::max(heights - 2 * found.dot(right) + found.dot(gram * found), 0.0) /
                              std::max(heights, std::numeric_limits<double>::min()));
     change += c.tail(changes);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/dense.hpp"
 #include "surface/common_kinks.hpp"
 #include "surface/curved_borders.hpp"
 #include "surface/face_edges.hpp"
@@ -285,7 +286,7 @@ class Kinks {
         matrix += row * row.transpose();
         right += weight * (z - bend * z * z / 2) * row;
       }
-      found = matrix.ldlt().solve(right);
+      found = dense::solve_symmetric(matrix, right);
     }
     surface.slope = found[0];
     surface.across = found[1] / unit, surface.twist = found[2] / unit, surface.along = found[3] / unit;

@@ -1,12 +1,12 @@
 #include "surface/surface_nodes.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numeric>
 
+#include "base/dense.hpp"
 #include "pairing/skin.hpp"
 #include "surface/arc_normals.hpp"
 #include "surface/fitted_normals.hpp"
@@ -111,7 +111,7 @@ bool continue_along(std::span<const std::pair<Point, Local>> lines, const Point&
   }
   if (matrix.isZero(0)) return false;
   matrix += held * matrix.trace() * Eigen::Matrix3d::Identity();
-  normal = (normal + Point(matrix.ldlt().solve(right))).normalized();
+  normal = (normal + Point(dense::solve_symmetric(matrix, right))).normalized();
   return true;
 }
 
