@@ -86,9 +86,10 @@ Eigen::VectorXd largest_on_bodies(const SparseMatrix& rows, const Eigen::VectorX
   for_each_body([&](Eigen::Index row, Eigen::Index body) { largest[body] = std::max(largest[body], std::abs(forces[row])); });
   for (Eigen::Index b = 0; b < largest.size(); ++b)
     largest[b] = left_out[static_cast<std::size_t>(b)] ? 0.0 : comm.max(largest[b]);
-  Eigen::VectorXd result = Eigen::VectorXd::Constant(rows.rows(), std::numeric_limits<double>::infinity());
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd result = Eigen::VectorXd::Constant(rows.rows(), none);
   for_each_body([&](Eigen::Index row, Eigen::Index body) { result[row] = std::min(result[row], largest[body]); });
-  return result;
+  return (result.array() == none).select(0, result);
 }
 
 Eigen::VectorXd towards_rest(const FeltMotions& felt, const Eigen::VectorXd& now, const Communicator& comm)

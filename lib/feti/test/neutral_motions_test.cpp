@@ -65,14 +65,14 @@ TEST(NeutralMotions, WhatTurnsWhereItIsDoesNotTravelNorWhatNoLoadDrives)
 TEST(NeutralMotions, AForceIsLittleBesideThoseOnTheLighterBody)
 {
   const Communicator comm;
-  // Two bodies that move along a line, each on the ground, and one on the other.
-  const auto rows = felt(Eigen::Matrix<double, 3, 2>{{1, 0}, {1, -1}, {0, 1}}, {}, {}, comm).rows;
-  const VectorXd forces = rows.rows() == 3 ? VectorXd(Eigen::Vector3d(100, 1e-3, 2)) : VectorXd(0);
+  // Two bodies that move along a line, each on the ground, and one on the other; a row that feels none, as that of a ring.
+  const auto rows = felt(Eigen::Matrix<double, 4, 2>{{1, 0}, {1, -1}, {0, 1}, {0, 0}}, {}, {}, comm).rows;
+  const VectorXd forces = rows.rows() == 4 ? VectorXd(Eigen::Vector4d(100, 1e-3, 2, 50)) : VectorXd(0);
   const VectorXd largest = largest_on_bodies(rows, forces, {false, false}, comm);
   const VectorXd without = largest_on_bodies(rows, forces, {false, true}, comm);
   if (rows.rows() == 0) return;
-  EXPECT_EQ(largest, Eigen::Vector3d(100, 2, 2));
-  EXPECT_EQ(without, Eigen::Vector3d(100, 0, 0));
+  EXPECT_EQ(largest, Eigen::Vector4d(100, 2, 2, 0));
+  EXPECT_EQ(without, Eigen::Vector4d(100, 0, 0, 0));
 }
 
 }  // namespace
