@@ -119,7 +119,7 @@ class SmalseRun {
 
  private:
   void report(const char* what, const Vector* at = nullptr) const;
-  bool is_solved() const { return measure_ <= limit_ && residual_ <= limit_; }
+  bool is_solved() const { return measure_ <= limit_ && residual_ <= std::max(limit_, rounding_); }
   bool is_minimised(double reduced, const Iterate& at);
 
   const Problem& problem_;
@@ -133,6 +133,7 @@ class SmalseRun {
   Eigen::VectorXd nu_, defect_;  // defect: Q z as a step of nu
   double largest_ = 1;           // ||P A P / nrm + Q||, raised by mpgp when it shows to be more
   double residual_ = 0, measure_ = 0;
+  double rounding_ = 0;  // of the residual; finish() takes it away
 };
 
 void SmalseRun::report(const char* what, const Vector* at) const
@@ -151,6 +152,7 @@ bool SmalseRun::is_minimised(double reduced, const Iterate& at)
     const Eigen::VectorXd gz = problem_.equality.apply(at.x);
     defect_ = problem_.equality.solve(gz);
     residual_ = std::sqrt(std::max(gz.dot(defect_), 0.0));
+    rounding_ = limits::Smalse::rounding * at.x.norm2();
   }
   report("inner");
   if (is_solved()) return true;
@@ -189,9 +191,10 @@ void SmalseRun::finish()
   result_.hessian_norm = norm_ * largest_;
   result_.augmented = nu_ / largest_;  // in the scaling of the next solve
   result_.projected_gradient = measure_ / size_;
-  result_.equality = residual_ / size_;
   result_.x.update(1, origin_, 1, point_.x, 0);
   result_.x.assign(project(result_.x, equality, problem_.right.e, problem_.set).point);
+  const double left = equality.size() > 0 ? equality.norm(problem_.right.e - equality.apply(result_.x)) : 0.0;
+  result_.equality = (residual_ <= rounding_ ? std::min(left, residual_) : residual_) / size_;
   problem_.hessian.apply(result_.x, result_.gradient);
   result_.gradient.update(-1, problem_.right.b, 1);
   Vector coarse(result_.gradient, Teuchos::Copy);

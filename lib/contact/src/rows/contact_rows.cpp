@@ -142,8 +142,12 @@ class ContactRows {
     return opposite_supports_.prescribed(s_.faces, [&](std::size_t p, const Opposite& opposite) {
       constexpr double alike = 0.1;
       const Eigen::Matrix3d free = s_.supports.free_part(s_.node_of(p), s_.dimension);
-      // A pair of nodes stays one along what one of them moves alone.
-      if (matches_[p]) return (free - opposite_supports_.free_part(opposite)).norm() < alike;
+      // A pair of nodes stays one along what one of them moves alone. At cuts of a sector also along what both move: the push
+      // along the normal that passes into supports there acts on the ends of one and the same support, and makes no resultant.
+      if (matches_[p]) {
+        if (options().cyclic && free.trace() > nothing_moves) return false;
+        return (free - opposite_supports_.free_part(opposite)).norm() < alike;
+      }
       const auto directions = directions_of_most(Eigen::Matrix3d::Identity() - free, axes, 0.5);
       return opposite_supports_.prescribe_each(opposite, directions);
     });

@@ -76,6 +76,7 @@ struct Smalse {
   static constexpr double shrink_precision = 0.5;  ///< beta: M falls by this when the Lagrangian did not rise enough
   static constexpr double start_accuracy = 0.1;    ///< eta: no inner iteration ends above it, however far G x is from e
   static constexpr int most_outer = 1000;
+  static constexpr double rounding = 1e-15;  ///< of ||x||: what rounding leaves of the distance to G x = e
 
   // Where an error is allowed, tolerances fall from Every::loosest to Every::finest until it is reached.
   static constexpr double below_allowed = 0.5;                 ///< of the tolerance that would lead to the allowed error
