@@ -13,8 +13,8 @@ struct FeltMotions {
 };
 
 /// Of each row of this rank the largest of `forces`, of these rows, on that of its bodies where it is smallest: what a force is
-/// little beside. 0 if one of its bodies is left out, or if it feels none, as what presses on the side of a ring; `left_out` has one
-/// entry for each body of all. Collective.
+/// little beside. 0 if one of its bodies is left out, or if it feels none, as what presses on the side of a ring; `left_out` has
+/// one entry for each body of all. Collective.
 Eigen::VectorXd largest_on_bodies(const SparseMatrix& rows, const Eigen::VectorXd& forces, const std::vector<bool>& left_out,
                                   const Communicator& comm);
 

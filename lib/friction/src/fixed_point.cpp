@@ -92,9 +92,8 @@ bool CoulombSearch::at_rest(Found& found, const std::vector<double>& wanted, dou
   if (!goal.allowed_error || !std::isfinite(solution.error))
     return bounds_rest && tolerance <= goal.residual && solution.converged && believable(solution);
   solution.error += error_of_bounds(solution, wanted) * to_come(response);
-  if (change_ <= Limits::obeyed && solution.error <= goal.allowed_error(solution.x, solution.nu) &&
-      qp::fits(solution, goal) && balances(problem_.dual, problem_.omega, wanted, solution.x) && contacts_at_rest(solution) &&
-      judge(found))
+  if (change_ <= Limits::obeyed && solution.error <= goal.allowed_error(solution.x, solution.nu) && qp::fits(solution, goal) &&
+      balances(problem_.dual, problem_.omega, wanted, solution.x) && contacts_at_rest(solution) && judge(found))
     return true;
   // A mesh without an error of its own (a uniform stress) allows none: bounds and residual at rest are enough, too.
   return bounds_rest && solution.converged && tolerance <= Limits::below_tolerance * problem_.options.tolerance &&

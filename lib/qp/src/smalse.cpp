@@ -133,7 +133,7 @@ class SmalseRun {
   Eigen::VectorXd nu_, defect_;  // defect: Q z as a step of nu
   double largest_ = 1;           // ||P A P / nrm + Q||, raised by mpgp when it shows to be more
   double residual_ = 0, measure_ = 0;
-  double rounding_ = 0;  // of the residual; finish() takes it away
+  double rounding_ = 0;  // of residual_
 };
 
 void SmalseRun::report(const char* what, const Vector* at) const
@@ -193,8 +193,8 @@ void SmalseRun::finish()
   result_.projected_gradient = measure_ / size_;
   result_.x.update(1, origin_, 1, point_.x, 0);
   result_.x.assign(project(result_.x, equality, problem_.right.e, problem_.set).point);
-  const double left = equality.size() > 0 ? equality.norm(problem_.right.e - equality.apply(result_.x)) : 0.0;
-  result_.equality = (residual_ <= rounding_ ? std::min(left, residual_) : residual_) / size_;
+  if (residual_ <= rounding_ && equality.size() > 0) residual_ = equality.norm(problem_.right.e - equality.apply(result_.x));
+  result_.equality = residual_ / size_;
   problem_.hessian.apply(result_.x, result_.gradient);
   result_.gradient.update(-1, problem_.right.b, 1);
   Vector coarse(result_.gradient, Teuchos::Copy);

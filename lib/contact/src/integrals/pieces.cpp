@@ -285,9 +285,9 @@ void make_dual(PieceStore::View& piece, std::span<const char> kept)
   SmallMatrix a = SmallMatrix::Identity(count, count);  // too thin for a dual basis of its own: theta~, which keeps the sums
   // Where a cut face's basis has lost linear fields with a function, resultants of dual functions need not lie in what is
   // covered; those of theta~ do.
-  const bool dual = piece.dual && (piece.point_facet.empty() || drop.empty() || linear);
-  if (const auto inverse = dense::inverse(scale.asDiagonal() * gram * scale.asDiagonal(), 1e-9); dual && inverse)
-    a = (d.cwiseProduct(scale)).asDiagonal() * *inverse * scale.asDiagonal();
+  if (piece.dual && (piece.point_facet.empty() || drop.empty() || linear))
+    if (const auto inverse = dense::inverse(scale.asDiagonal() * gram * scale.asDiagonal(), 1e-9))
+      a = d.cwiseProduct(scale).asDiagonal() * *inverse * scale.asDiagonal();
 
   // psi = all theta, with rows of zeros for the dropped nodes.
   SmallMatrix all = SmallMatrix::Zero(n, n);
