@@ -162,6 +162,7 @@ mortise_regression(dragged_on_plane VARIANT .face_newton RANKS 1 SET solver.algo
 mortise_regression(dragged_across RANKS 1 STUDY_RANKS 2)
 mortise_regression(let_go RANKS 1 STUDY_RANKS 3)
 mortise_regression(turned_foot RANKS 1 STUDY_RANKS 2 3)
+mortise_regression(turned_bore RANKS 1 STUDY_RANKS 2 3)
 mortise_regression(held_by_fit RANKS 1 STUDY_RANKS 2 3)
 mortise_regression(held_by_fit VARIANT .by_products EXPECTED cases/held_by_fit.expected.json RANKS 1 STUDY_RANKS 2
                    SET solver.algorithm=face_newton)

@@ -13,7 +13,8 @@ namespace {
 // All of the nodes' spread. Farther apart than that, a lever is no correction of facets any more: its coefficients would be
 // larger than the row's own. Nodes in a line pass on no moment across it.
 constexpr double longest = 1, in_line = 0.1;
-// Of the distances of the nodes: less is rounding, and nodes of which one has nearly all do not spread.
+// Of the distances of the nodes: less is rounding, and nodes of which one has nearly all do not spread, nor do those of a bond in
+// a plane model across the line that they lie on, along which its row acts where supports hold what is across.
 constexpr double no_moment = 1e-11, no_spread = 1e-4;
 constexpr double no_gap = 1e-3;  // what is less is what smooth surfaces through the nodes are wrong by
 
@@ -48,12 +49,13 @@ Spread::Spread(std::span<const Term> terms, double d, const Side& side, const Ei
 {
   const auto count = static_cast<Eigen::Index>(terms.size());
   if (count < 2) return;
+  const auto at = [&](std::size_t k) -> const Point& { return side.points[static_cast<std::size_t>(terms[k].node)]; };
+  for (std::size_t k = 1; k < terms.size(); ++k) distance_ = std::max(distance_, (at(k) - at(0)).norm());
   size_.resize(count);
   place_.resize(2, count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const auto& term = terms[static_cast<std::size_t>(k)];
-    size_[k] = std::abs(term.value) / d;
-    place_.col(k) = axes.transpose() * side.points[static_cast<std::size_t>(term.node)];
+    size_[k] = std::abs(terms[static_cast<std::size_t>(k)].value) / d;
+    place_.col(k) = axes.transpose() * at(static_cast<std::size_t>(k));
   }
   const Eigen::Vector2d mean = place_ * size_ / size_.sum();
   place_.colwise() -= mean;
@@ -68,7 +70,7 @@ Eigen::VectorXd Spread::least(const Eigen::Vector2d& moment) const
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
   for (int k = 0; k < 2; ++k) {
     const double part = directions_.col(k).dot(moment), length = lengths_[k];
-    if (length < std::max(in_line * lengths_[1], no_spread * extent()) || std::abs(part) > longest * length) continue;
+    if (length < std::max(in_line * lengths_[1], no_spread * distance_) || std::abs(part) > longest * length) continue;
     if (std::abs(part) < no_moment * extent()) continue;
     slope += part / (length * length * size_.sum()) * directions_.col(k);
   }

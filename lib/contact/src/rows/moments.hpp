@@ -31,6 +31,7 @@ class Spread {
   double extent() const { return place_.cols() > 0 ? place_.colwise().norm().maxCoeff() : 0.0; }
 
  private:
+  double distance_ = 0;   // of nodes, the largest from the first one
   Eigen::VectorXd size_;  // of the coefficients
   Eigen::Matrix2Xd place_;
   Eigen::Matrix2d directions_ = Eigen::Matrix2d::Identity();  // in which they spread least and most,
@@ -49,8 +50,8 @@ class Moments {
   Moments(std::span<Term> terms, double d, const Point& normal, const Point& closing, const Point* at, const Side& secondary,
           const Side& primary, int dimension);
 
-  /// From a place to what is paired with it beyond a `gap` along the row's `normal`: integrals pair along the secondary side's own
-  /// normal.
+  /// From a place to what is paired with it beyond a `gap` along the row's `normal`: integrals pair along the secondary side's
+  /// own normal.
   static Point across(double gap, const Point& normal, const Point& own_normal);
 
   /// The couple along the normal on the primary nodes that makes up for s in a row along `tangent`: its coefficients sum to 0.
